@@ -84,6 +84,22 @@ def wave(run):
         failures.append("echo")
 
 
+def footing(run):
+    r = run("footing.json")
+    c, half, thick, h, wide = 2e3, 0.4, 0.12, 0.1, 1.99
+    late = [k for k, t in enumerate(r.column["time_s"]) if t > 0.9]
+
+    def mean(name):
+        return sum(r.column[name][k] for k in late) / len(late)
+
+    volume = 2.4 * thick * 1.2
+    weight = 9.81 * (r.summary["momentum"]["mass_kg"] - 1800 * volume)
+    pressure = -mean("on_clay_z_N") / (wide * thick)
+    compare("pressure of the gravel", pressure, weight / (wide * thick), 0.02)
+    compare("load of the footing", -mean("footing_z_N") / (half * thick),
+            (2 + math.pi) * c * (1 + 0.5 * h / half) + pressure, 0.05)
+
+
 def repose(run):
     r = run("repose.json", "time=2.2")
     base, d, half = 72, 0.01, 0.12

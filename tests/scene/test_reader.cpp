@@ -79,6 +79,19 @@ TEST(SceneReader, ParametersServeEveryNumberAndCanBeSet) {
   EXPECT_NE(refusal(text, {"r=2*w"}).find("Unexpected token \"w\""), std::string::npos);
 }
 
+/// 2.4/0.1 is 23.999999999999996.
+TEST(SceneReader, ExpressionsAreWholeUpToRoundOff) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  const std::string text = replaced(smallScene, "{\n", "{\n\"let\": {\"w\": 2.4, \"h\": 0.1},\n");
+  const auto perMacroStep = [&](const std::string& value) {
+    return sceneFromText(text, "s.json", SCENES, {"steps.per_macro_step=" + value}).steps.stepsPerMacroStep;
+  };
+  EXPECT_EQ(perMacroStep("w/h"), 24);
+  EXPECT_EQ(perMacroStep("24*h/w"), 1);
+  EXPECT_NE(refusal(text, {"steps.per_macro_step=w/h + 1e-9"}).find("write a whole number"), std::string::npos);
+  EXPECT_NE(refusal(text, {"steps.per_macro_step=w/h - 24"}).find("write one"), std::string::npos);
+}
+
 /// "2*h" is twice the parameter where there is one, "2 h" is two hours everywhere.
 TEST(SceneReader, RefusalsOfNumbersGuessWhatWasMeant) {
   if (!WITH_EXPRESSIONS) GTEST_SKIP();

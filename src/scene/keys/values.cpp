@@ -121,7 +121,10 @@ double Values::numberOf(const Node& node, Key key, const Limits& limits, const s
     refuse(node, named(key) + " is " + nameOf(node) + ", in " + siName(*number.dimension),
            own.empty() ? "write a number without a unit" : "write one in " + own);
   }
-  const double value = number.value;
+  return within(node, key, number.value, limits);
+}
+
+double Values::within(const Node& node, Key key, double value, const Limits& limits) const {
   const bool tooSmall = limits.openBelow ? !(value > limits.least) : !(value >= limits.least);
   const bool tooLarge = limits.openAbove ? !(value < limits.most) : !(value <= limits.most);
   if (!std::isfinite(value) || tooSmall || tooLarge)
@@ -130,7 +133,11 @@ double Values::numberOf(const Node& node, Key key, const Limits& limits, const s
 }
 
 double Values::wholeOf(const Node& node, Key key, double least, double most) const {
-  const double value = numberOf(node, key, {unit::none, least, most});
+  double value = numberOf(node, key, any(unit::none));
+  // Expressions such as "width/edge" are whole up to round-off.
+  if (node.kind == Node::Kind::text && std::abs(value - std::round(value)) <= 1e-12 * std::abs(value))
+    value = std::round(value);
+  within(node, key, value, {unit::none, least, most});
   if (value != std::floor(value)) refuse(node, named(key) + " is " + formatNumber(value), "write a whole number");
   return value;
 }

@@ -47,6 +47,7 @@ protected:
   std::string guessAt(const std::string& text) const;
   AnyNumber anyNumberOf(const Node& node, Key key, const std::string& otherwise = "") const;
   double numberOf(const Node& node, Key key, const Limits& limits, const std::string& otherwise = "") const;
+  double within(const Node& node, Key key, double value, const Limits& limits) const;
   double wholeOf(const Node& node, Key key, double least, double most) const;
   TimeValue timeValueOf(const Node& node, Key key, const Limits& limits);
   TimeVector timeVectorOf(const Node& node, Key key, const Dimension& dimension);
