@@ -28,7 +28,7 @@ overlaps. Scenes to start from and the documents come with it.")
 # A program that asks for the component dem needs Eigen alone; who asks for fem, VTU files or scenes needs these as well.
 set(wanted "")
 foreach(feature suitesparse=libsuitesparse-dev vtk=libvtk9-dev hdf5=libhdf5-dev fcl=libfcl-dev cgal=libcgal-dev
-                muparser=libmuparser-dev ceres=libceres-dev json=nlohmann-json3-dev)
+                muparser=libmuparser-dev ceres=libceres-dev zlib=zlib1g-dev json=nlohmann-json3-dev)
   string(REPLACE "=" ";" pair ${feature})
   list(GET pair 0 name)
   list(GET pair 1 package)

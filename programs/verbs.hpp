@@ -21,6 +21,7 @@ bool compareRuns(int argc, char** argv);  ///< false if the two differ by more t
 bool writeFields(int argc, char** argv);
 bool calibrate(int argc, char** argv);  ///< refused where the build has no Ceres
 bool studyScene(int argc, char** argv);
+bool drawRun(int argc, char** argv);
 bool reportRun(int argc, char** argv);
 bool writeStarter(int argc, char** argv);
 
@@ -36,6 +37,7 @@ inline constexpr Verb verbs[] = {
     {"calibrate", "continuum of a packing, grain parameters from measurements, or the best widths and lengths",
      calibrate},
     {"study", "runs a scene over lists of parameters, in several processes", studyScene},
+    {"picture", "draws a frame of a run, or all of them as a film", drawRun},
     {"report", "writes a page (HTML, Markdown) on a run", reportRun},
     {"new", "prints a commented starter scene, or writes it", writeStarter},
 };

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 #include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
@@ -41,6 +42,9 @@ constexpr std::array<std::string_view, 12> beginnings{
     "\x89HDF\r\n\x1a\n",                                           // see isHdf5OfOurs
 };
 constexpr std::string_view hdf5 = beginnings.back();
+/// Pictures name their program behind a head of fixed length: PNG in its text "Software", GIF in a comment.
+constexpr std::array<std::pair<std::string_view, std::size_t>, 2> pictures{
+    {{"\x89PNG\r\n\x1a\n", 50}, {"GIF89a", 784}}};
 /// What JSON of ours begins with, white space left out.
 constexpr std::array<std::string_view, 2> jsonBeginnings{"{\"provenance\":{\"version\":\"dovetail",
                                                          "{\"version\":\"dovetail"};
@@ -74,6 +78,9 @@ const std::string_view* kindOf(std::string_view head) {
   for (const std::string_view& beginning : beginnings)
     if (beginning == hdf5 ? head.starts_with(hdf5) && isHdf5OfOurs(head) : beginsWith(head, beginning))
       return &beginning;
+  for (const auto& [beginning, place] : pictures)
+    if (head.starts_with(beginning) && head.size() > place)
+      return beginsWith(head.substr(place), "dovetail ") ? &beginning : nullptr;
   if (!head.starts_with('{')) return nullptr;
   std::string dense;
   for (std::size_t k = 0; k < head.size() && dense.size() < 128; ++k)
@@ -158,7 +165,8 @@ void removeReport(const fs::path& folder) {
     }
     for (const fs::path& figure : figures) removeOurs(figure);
   }
-  for (const fs::path& page : {text, folder / "report.html"})
+  for (const fs::path& page :
+       {text, folder / "report.html", folder / "report_picture.png", folder / "picture.png", folder / "film.gif"})
     if (isOurs(page)) removeOurs(page);
 }
 

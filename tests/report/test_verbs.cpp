@@ -145,5 +145,60 @@ TEST(ReportVerb, WritesAPageOnARunWithItsNumbers) {
   EXPECT_EQ(runProgram({"report", bounce.folder.path().string()}).code, 2);
 }
 
+#if WITH_PICTURES
+TEST(PictureVerb, DrawsFramesAndFilmsAndReplacesItsOwnFilesOnly) {
+  const Bounce bounce;
+  ASSERT_EQ(runProgram({"run", bounce.file, "--set", "output.frames=0.1 ms", "--out", bounce.out}).code, 0);
+  for (int time = 0; time < 2; ++time) {
+    const Outcome drawn = runProgram({"picture", bounce.out, "--size", "300", "200"});
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    const std::string png = readText(bounce.folder / "out/picture.png");
+    EXPECT_EQ(png.substr(1, 3), "PNG");
+    EXPECT_EQ(png.substr(16, 8), std::string("\0\0\x01\x2c\0\0\0\xc8", 8));
+  }
+  ASSERT_EQ(runProgram({"picture", bounce.out, "--film"}).code, 0);
+  const std::string film = readText(bounce.folder / "out/film.gif");
+  EXPECT_EQ(film.substr(0, 6), "GIF89a");
+  std::size_t images = 0;
+  for (std::size_t at = film.find("\x21\xF9\x04"); at != std::string::npos; at = film.find("\x21\xF9\x04", at + 1))
+    ++images;
+  const std::filesystem::directory_iterator frames(bounce.folder / "out/grains");
+  EXPECT_EQ(images, static_cast<std::size_t>(std::distance(begin(frames), end(frames))));
+  // A run that replaces this one takes its pictures away, but not those of others.
+  writeText(bounce.folder / "out/picture.png", "mine");
+  const Outcome taken = runProgram({"picture", bounce.out});
+  EXPECT_EQ(taken.code, 2);
+  EXPECT_NE(taken.err.find("not from an earlier run"), std::string::npos) << taken.err;
+  ASSERT_EQ(runProgram({"run", bounce.file, "--out", bounce.out, "--replace"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(bounce.folder / "out/film.gif"));
+  EXPECT_EQ(readText(bounce.folder / "out/picture.png"), "mine");
+}
+
+TEST(PictureVerb, RefusalsSayWhatToWrite) {
+  const Bounce bounce;
+  ASSERT_EQ(runProgram({"run", bounce.file, "--out", bounce.out}).code, 0);
+  const auto refused = [&](std::vector<std::string> more, const std::string& words) {
+    std::vector<std::string> all{"picture", bounce.out};
+    all.insert(all.end(), more.begin(), more.end());
+    const Outcome outcome = runProgram(all);
+    EXPECT_EQ(outcome.code, 2) << words;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+  };
+  refused({}, "\"frames\": \"10 ms\"");
+  ASSERT_EQ(runProgram({"run", bounce.file, "--set", "output.frames=0.1 ms", "--out", bounce.out, "--replace"}).code,
+            0);
+  refused({"--grains", "sped"}, "write \"speed\"");
+  refused({"--frame", "60"}, "give a number from 0 to");
+  refused({"--lines", "contacts"}, "add \"contacts\"");
+  refused({"--out", "a.gif"}, "ends in .png");
+  refused({"--film", "--frame", "2"}, "--frame");
+  refused({"--cut", "w", "0.1"}, "x, y or z");
+  refused({"--cut", "y", "here"}, "no number");
+  refused({"--background", "greenish"}, "#e8eef4");
+  refused({"--grain-range", "2", "1"}, "smaller number first");
+  refused({"--size", "10", "10"}, "150 to 8000");
+}
+#endif
+
 }  // namespace
 }  // namespace dovetail::report

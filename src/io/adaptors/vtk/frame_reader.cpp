@@ -3,7 +3,9 @@
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkImageData.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkStringArray.h>
@@ -37,6 +39,17 @@ void addArrays(FrameContent& content, vtkFieldData* data, bool perCell) {
   }
 }
 
+void addCells(FrameContent& content, vtkDataSet* set) {
+  const vtkNew<vtkIdList> points;
+  for (vtkIdType cell = 0; cell < set->GetNumberOfCells(); ++cell) {
+    set->GetCellPoints(cell, points);
+    content.cellType.push_back(set->GetCellType(cell));
+    for (vtkIdType k = 0; k < points->GetNumberOfIds(); ++k)
+      content.cellPoint.push_back(static_cast<std::size_t>(points->GetId(k)));
+    content.cellEnd.push_back(content.cellPoint.size());
+  }
+}
+
 void addFieldData(FrameContent& content, vtkFieldData* data) {
   if (vtkDataArray* const time = data->GetArray("TimeValue"); time && time->GetNumberOfTuples() > 0)
     content.time = time->GetComponent(0, 0);
@@ -53,6 +66,7 @@ FrameContent contentOf(vtkDataSet* set, const char* kind) {
     set->GetPoint(i, x);
     content.position.push_back({x[0], x[1], x[2]});
   }
+  if (content.kind != "VTI") addCells(content, set);
   addArrays(content, set->GetPointData(), false);
   addArrays(content, set->GetCellData(), true);
   addFieldData(content, set->GetFieldData());

@@ -1,7 +1,7 @@
 // Files of a run: checked before the run, replaced as a whole, and never at the cost of anybody else's files.
 //
 // The rule. A file is ours if it is a regular file that begins with the mark "dovetail <version>" as one of our writers
-// puts it: behind the sign of a comment, or as the first entry of a JSON object. (HDF5 has it in an attribute.) Our
+// puts it: behind the sign of a comment, as the first entry of a JSON object, in an attribute (HDF5) or text (PNG). Our
 // name elsewhere in a file does not count. A file of ours with the same name and of the same kind, from an earlier run,
 // is replaced in one rename when the new one is complete. Everything else in a folder is left as it is: no function
 // here deletes or overwrites a file without the mark, and none follows a symbolic link to replace what it points to.
@@ -54,7 +54,7 @@ void requireFreeOrOurs(const std::filesystem::path& path);
 /// @throws InputError if something that is not ours is at `path`; Error if it cannot be removed
 void removeOurs(const std::filesystem::path& path);
 
-/// Removes the pages of a report of ours, and of figures those that it names.
+/// Removes the pages of a report of ours, figures that it names, and pictures of the run.
 void removeReport(const std::filesystem::path& folder);
 
 /// @throws InputError if there are files of an earlier run of ours in a folder, finished or not

@@ -23,7 +23,10 @@ struct FrameContent {
   std::optional<double> time;           ///< "TimeValue", s
   std::vector<std::string> provenance;  ///< "key: value"
   std::size_t cells = 0;
-  std::vector<Vec3> position;  ///< of the points, m
+  std::vector<int> cellType;           ///< by the numbers of VTK; none of a VTI file
+  std::vector<std::size_t> cellEnd;    ///< where the points of a cell end in `cellPoint`
+  std::vector<std::size_t> cellPoint;  ///< numbers of points, in the order of VTK
+  std::vector<Vec3> position;          ///< of the points, m
   std::vector<FrameArray> arrays;
 
   /// Null if there is none.
