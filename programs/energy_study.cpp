@@ -163,21 +163,22 @@ report::Figure againstTime(const std::vector<Run>& runs) {
   return figure;
 }
 
-/// What every channel has gained from the start to the end, by run.
+/// What every channel has gained from the start to the end, by run; channels that gain nothing in all are left out.
 report::Table channelTable(const std::vector<Run>& runs) {
   report::Table table{{"gained by the end (J)"}, {}};
-  for (const std::size_t c : channelsOf(runs.front().series)) table.head.push_back(runs.front().series.names()[c]);
-  for (const Run& run : runs) {
-    table.rows.push_back({run.label});
-    for (std::size_t k = 1; k < table.head.size(); ++k) {
+  for (const Run& run : runs) table.head.push_back(run.label);
+  for (const std::size_t c : channelsOf(runs.front().series)) {
+    const std::string& name = runs.front().series.names()[c];
+    table.rows.push_back({name});
+    bool gains = false;
+    for (const Run& run : runs) {
       const auto& names = run.series.names();
-      if (std::find(names.begin(), names.end(), table.head[k]) == names.end()) {
-        table.rows.back().push_back("");
-        continue;
-      }
-      const auto column = run.series.column(table.head[k]);
-      table.rows.back().push_back(format("%.4g", column.back() - column.front()));
+      const bool has = std::find(names.begin(), names.end(), name) != names.end();
+      const double gained = has ? run.series.column(name).back() - run.series.column(name).front() : 0.0;
+      table.rows.back().push_back(has ? format("%.4g", gained) : "");
+      gains = gains || gained != 0.0;
     }
+    if (!gains) table.rows.pop_back();
   }
   return table;
 }
@@ -199,7 +200,7 @@ void writeEnergyStudy(const fs::path& folder) {
   if (runs.empty()) return;
   findOrders(runs);
   const report::Page page{
-      "Energy",
+      "Energy balance of a study",
       {{"Runs",
         {report::Paragraph{
              "Residual: energy that no channel accounts for, the largest of the run. Order: of the residual over "

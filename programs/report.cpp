@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "dovetail/report/run_report.hpp"
+#include "dovetail/scene/picture.hpp"
 #include "program/options.hpp"
 #include "verbs.hpp"
 
@@ -13,7 +14,8 @@ bool reportRun(int argc, char** argv) {
   std::string folder;
   options.text("FOLDER", folder, "that the run wrote into").require();
   if (!options.parse(argc, argv)) return true;
-  std::cout << report::writeRunReport(folder).string() << '\n';
+  const scene::ShownRun shown = scene::showRun(folder);
+  std::cout << report::writeRunReport(folder, {"picture", shown.caption, shown.png}).string() << '\n';
   return true;
 }
 

@@ -195,9 +195,10 @@ std::string pathOf(const Curve& curve, const Drawn& drawn, std::size_t number) {
   for (const auto& part : drawn.parts())
     for (std::size_t k = 0; k < part.size(); ++k) d += format("%s%.1f %.1f", k == 0 ? "M" : "L", part[k].x, part[k].y);
   if (curve.line && !d.empty()) svg += "<path class=\"" + colour + "\" d=\"" + d + "\"/>\n";
-  if (!curve.marks) return svg;
+  // A point without neighbours has no line.
   for (const auto& part : drawn.parts())
-    for (const Point& p : part) svg += markAt(p.x, p.y, number);
+    for (const Point& p : part)
+      if (curve.marks || (curve.line && part.size() == 1)) svg += markAt(p.x, p.y, number);
   return svg;
 }
 

@@ -35,6 +35,9 @@ h1{font-size:1.5rem;line-height:1.25;margin:.5rem 0}
 h2{font-size:1.15rem;margin:2rem 0 .5rem;border-bottom:1px solid var(--line)}
 p{margin:.5rem 0;overflow-wrap:anywhere}
 .figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,26rem),1fr));gap:1rem}
+.photo{margin:.5rem 0}
+.photo img{display:block;width:100%;max-width:52rem;height:auto;border-radius:4px}
+.photo figcaption{font-size:.85rem;opacity:.8;margin-top:.3rem}
 .table{overflow-x:auto;margin:.5rem 0}
 table{border-collapse:collapse;font-size:.9rem}
 th,td{padding:.2rem .7rem .2rem 0;text-align:left;vertical-align:top;border-bottom:1px solid var(--line)}
@@ -47,6 +50,19 @@ details{margin:.5rem 0;background:var(--soft);padding:.4rem .7rem;border-radius:
 summary{cursor:pointer}
 pre{overflow-x:auto;font-size:.8rem;line-height:1.35}
 )";
+
+/// Bytes as text (RFC 4648).
+std::string base64(const std::string& bytes) {
+  const char* const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    unsigned word = 0;
+    for (std::size_t m = k; m < k + 3; ++m)
+      word = word << 8 | (m < bytes.size() ? static_cast<unsigned char>(bytes[m]) : 0U);
+    for (std::size_t m = 0; m < 4; ++m) text += k + m <= bytes.size() ? letters[word >> (18 - 6 * m) & 63] : '=';
+  }
+  return text;
+}
 
 class Html {
 public:
@@ -74,6 +90,11 @@ public:
   void operator()(const Map& map) {
     close();
     text += htmlOf(map, maps_++);
+  }
+  void operator()(const Photo& photo) {
+    close();
+    text += "<figure class=\"photo\"><img alt=\"" + escaped(photo.title) + "\" src=\"data:image/png;base64," +
+            base64(photo.png) + "\"><figcaption>" + escaped(photo.title) + "</figcaption></figure>\n";
   }
   void close() {
     if (inFigures_) text += "</div>\n";
@@ -113,12 +134,15 @@ namespace {
 struct Markdown {
   std::string text, figureFile;
 
-  void operator()(const Paragraph& p) { text += p.text + "\n\n"; }
-  void operator()(const Figure& f) { text += "![" + f.title + "](" + figureFile + f.name + ".svg)\n\n"; }
+  void operator()(const Paragraph& p) { text += plain(p.text) + "\n\n"; }
+  void operator()(const Figure& f) { text += "![" + plain(f.title) + "](" + figureFile + f.name + ".svg)\n\n"; }
+  void operator()(const Photo& p) {
+    text += "![" + plain(p.title) + "](" + figureFile + p.name + ".png)\n\n" + plain(p.title) + "\n\n";
+  }
   void operator()(const Table& table) { text += markdownOf(table) + "\n"; }
   void operator()(const Map& map) { text += markdownOf(map); }
   void operator()(const Listing& l) {
-    text += l.title + ":\n\n````\n" + l.text + (l.text.ends_with("\n") ? "" : "\n") + "````\n\n";
+    text += plain(l.title) + ":\n\n````\n" + l.text + (l.text.ends_with("\n") ? "" : "\n") + "````\n\n";
   }
 };
 
@@ -155,21 +179,29 @@ std::string markdownOf(const Table& table) {
 }
 
 std::string markdownOf(const Page& page, const std::string& figureFile) {
-  Markdown markdown{"# " + page.title + "\n\n", figureFile};
+  Markdown markdown{"# " + plain(page.title) + "\n\n", figureFile};
   for (const Section& section : page.sections) {
     if (section.blocks.empty()) continue;
-    markdown.text += "## " + section.heading + "\n\n";
+    markdown.text += "## " + plain(section.heading) + "\n\n";
     for (const Block& block : section.blocks) std::visit(markdown, block);
   }
   return markdown.text;
 }
 
-std::vector<const Figure*> figuresOf(const Page& page) {
-  std::vector<const Figure*> figures;
+namespace {
+
+template <class Kind>
+std::vector<const Kind*> blocksOf(const Page& page) {
+  std::vector<const Kind*> found;
   for (const Section& section : page.sections)
     for (const Block& block : section.blocks)
-      if (const auto* const figure = std::get_if<Figure>(&block)) figures.push_back(figure);
-  return figures;
+      if (const auto* const one = std::get_if<Kind>(&block)) found.push_back(one);
+  return found;
 }
+
+}  // namespace
+
+std::vector<const Figure*> figuresOf(const Page& page) { return blocksOf<Figure>(page); }
+std::vector<const Photo*> photosOf(const Page& page) { return blocksOf<Photo>(page); }
 
 }  // namespace dovetail::report

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <map>
 
 #include "dovetail/core/finite.hpp"
@@ -23,8 +24,24 @@ double reachOf(std::span<const double> values) {
   return largest;
 }
 
+/// But for round-off.
 bool isConstant(std::span<const double> values) {
-  return std::all_of(values.begin(), values.end(), [&](double value) { return value == values.front(); });
+  const double least = 1e-9 * reachOf(values);
+  return std::all_of(values.begin(), values.end(),
+                     [&](double value) { return std::abs(value - values.front()) <= least || value != value; });
+}
+
+/// Places before which more time passes than usual between rows: there a stage has relaxed, or a run has waited.
+std::vector<std::size_t> gapsIn(std::span<const double> time) {
+  std::vector<double> steps;
+  for (std::size_t k = 1; k < time.size(); ++k) steps.push_back(time[k] - time[k - 1]);
+  if (steps.size() < 3) return {};
+  std::vector<double> sorted = steps;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+  std::vector<std::size_t> gaps;
+  for (std::size_t k = 0; k < steps.size(); ++k)
+    if (steps[k] > 5.0 * sorted[sorted.size() / 2]) gaps.push_back(k + 1);
+  return gaps;
 }
 
 /// "plate_kinetic_J" → "plate kinetic"
@@ -43,7 +60,21 @@ std::string nameOf(const std::string& column) {
 /// Title and axis of the columns of a unit that have no figure of their own.
 std::pair<std::string, std::string> titleAndAxis(const std::string& unit, const std::vector<std::string>& columns) {
   std::string name = columns.size() == 1 ? nameOf(columns.front()) : "";
-  if (name.empty()) return {unit == "1" ? "Numbers" : "In " + unit, unit == "1" ? "number" : unit};
+  const std::map<std::string, std::string> several{{"1", "Numbers of grains"},
+                                                   {"m", "Positions and displacements"},
+                                                   {"m/s", "Velocities"},
+                                                   {"rad/s", "Spins"},
+                                                   {"s", "Times"},
+                                                   {"Pa", "Stresses"},
+                                                   {"Nm", "Moments"},
+                                                   {"kg", "Masses"}};
+  const auto found = several.find(unit);
+  if (name.empty() && found == several.end()) return {"Columns in " + unit, unit};
+  if (name.empty()) {
+    std::string axis = found->second;
+    axis[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(axis[0])));
+    return {found->second, unit == "1" ? "number" : axis + " (" + unit + ")"};
+  }
   const std::string axis = unit == "1" ? "number" : name + " (" + unit + ")";
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   return {name, axis};
@@ -65,16 +96,27 @@ void addFigure(std::vector<Block>& blocks, const io::TimeSeries& series, const s
     return values;
   };
   const auto reach = [&](const std::string& column) { return reachOf(valuesOf(column)); };
-  std::erase_if(columns, [&](const std::string& column) { return reach(column) == 0.0; });
-  if (columns.empty() || series.rows() < 2) return;
+  // What is round-off beside the others is a line at 0.
+  double largest = 0.0;
+  for (const std::string& column : columns) largest = std::max(largest, reach(column));
+  std::erase_if(columns, [&](const std::string& column) { return reach(column) <= 1e-9 * largest; });
+  const bool flat = std::all_of(columns.begin(), columns.end(), [&](const auto& c) { return isConstant(valuesOf(c)); });
+  if (columns.empty() || series.rows() < 2 || flat) return;
   if (columns.size() > mostCurves) {
     std::stable_sort(columns.begin(), columns.end(), [&](const auto& a, const auto& b) { return reach(a) > reach(b); });
     columns.resize(mostCurves);
   }
   const auto time = series.column("time_s");
   Figure figure{name, title, {"time (s)"}, {axis}, {}, {}};
-  for (const std::string& column : columns)
-    figure.curves.push_back({nameOf(column), {time.begin(), time.end()}, valuesOf(column)});
+  std::vector<std::size_t> gaps = gapsIn(time);
+  std::reverse(gaps.begin(), gaps.end());
+  for (const std::string& column : columns) {
+    Curve curve{nameOf(column), {time.begin(), time.end()}, valuesOf(column)};
+    for (const std::size_t gap : gaps)
+      for (std::vector<double>* const values : {&curve.x, &curve.y})
+        values->insert(values->begin() + static_cast<std::ptrdiff_t>(gap), std::numeric_limits<double>::quiet_NaN());
+    figure.curves.push_back(std::move(curve));
+  }
   blocks.emplace_back(std::move(figure));
 }
 
@@ -117,7 +159,7 @@ std::vector<Block> energyBalance(const RunRecord& record) {
   Table table{{"channel", "at opening (J)", "at the end (J)", "change (J)"}, {}};
   double stored = 0.0, residual = 0.0, atOpening = 0.0;
   const auto add = [&](const std::string& name, double before, double after) {
-    table.rows.push_back({name, format("%.6g", before), format("%.6g", after), format("%.6g", after - before)});
+    table.rows.push_back({name, format("%.5g", before), format("%.5g", after), format("%.5g", after - before)});
   };
   for (const auto& c : record.channels) {
     const bool booked = c.kind == EnergyLedger::Kind::booked;
@@ -153,11 +195,11 @@ std::string labelOf(const std::string& key) {
   return nameOf(key) + (unit == "1" ? "" : " (" + unit + ")");
 }
 
-/// Six digits of a number.
+/// Five digits of a number.
 std::string shortened(const std::string& value) {
   char* end = nullptr;
   const double number = std::strtod(value.c_str(), &end);
-  return value.empty() || *end != '\0' || value.size() < 8 ? value : format("%.6g", number);
+  return value.empty() || *end != '\0' || value.size() < 7 ? value : format("%.5g", number);
 }
 
 /// Figures of the summary whose name holds one of the words; they are taken out.
@@ -182,13 +224,20 @@ std::vector<Block> linesOf(const std::vector<std::string>& lines) {
 
 }  // namespace
 
-Page pageOf(const RunRecord& record) {
+Page pageOf(const RunRecord& record, const Photo& photo) {
   Page page{record.title, {}};
+  if (!photo.png.empty()) page.sections.push_back({"Picture", {photo}});
   std::vector<Block> state = linesOf(record.notes);
   if (!record.finished) state.emplace_back(Paragraph{"The run has not finished: there is no summary of it."});
   page.sections.push_back({"Run", std::move(state)});
   page.sections.push_back({"Warnings", linesOf(record.warnings)});
-  if (record.series) page.sections.push_back({"Over time", figuresOfSeries(*record.series)});
+  if (record.series) {
+    std::vector<Block> figuresOverTime = figuresOfSeries(*record.series);
+    if (!figuresOverTime.empty() && !gapsIn(record.series->column("time_s")).empty())
+      figuresOverTime.emplace_back(
+          Paragraph{"Lines end where no rows were written: stages that relax have one at their end."});
+    page.sections.push_back({"Over time", std::move(figuresOverTime)});
+  }
   page.sections.push_back({"Energy balance", energyBalance(record)});
   io::KeyValues figures = record.figures;
   page.sections.push_back({"Balances", take(figures, {"residual"})});
@@ -206,17 +255,20 @@ Page pageOf(const RunRecord& record) {
   return page;
 }
 
-std::filesystem::path writeRunReport(const std::filesystem::path& folder) {
-  const Page page = pageOf(readRunFolder(folder));
+std::filesystem::path writeRunReport(const std::filesystem::path& folder, const Photo& photo) {
+  const Page page = pageOf(readRunFolder(folder), photo);
   const std::string mark = "dovetail " + io::buildInfo().version;
   const auto figureFile = [&](const Figure& figure) { return folder / ("report_" + figure.name + ".svg"); };
   for (const char* const name : {"report.md", "report.html"}) io::requireFreeOrOurs(folder / name);
   for (const Figure* const figure : figuresOf(page)) io::requireFreeOrOurs(figureFile(*figure));
+  const auto photoFile = [&](const Photo& one) { return folder / ("report_" + one.name + ".png"); };
+  for (const Photo* const one : photosOf(page)) io::requireFreeOrOurs(photoFile(*one));
   io::removeReport(folder);
   io::writeFileAtomically(folder / "report.html", htmlOf(page, mark));
   io::writeFileAtomically(folder / "report.md", "<!-- " + mark + " -->\n\n" + markdownOf(page, "report_"));
   for (const Figure* const figure : figuresOf(page))
     io::writeFileAtomically(figureFile(*figure), "<!-- " + mark + " -->\n" + svgFileOf(*figure));
+  for (const Photo* const one : photosOf(page)) io::writeFileAtomically(photoFile(*one), one->png);
   return folder / "report.html";
 }
 

@@ -203,7 +203,7 @@ private:
     json.update(study_.about);
     json["runs"] = rows;
     io::writeFileAtomically(file(".json"), json.dump(2) + "\n");
-    Page page{"Study " + study_.name, {{"Runs", {table(rows)}}}};
+    Page page{study_.name == "study" ? "Study" : "Study " + study_.name, {{"Runs", {table(rows)}}}};
     if (!study_.fronts.empty()) {
       page.sections.push_back({"Error against run time", {frontFigure(rows, study_.fronts.front(), study_.name)}});
       io::writeFileAtomically(file(".svg"),

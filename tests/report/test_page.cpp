@@ -104,16 +104,50 @@ TEST(RunReport, IsOnePageWithFiguresTablesAndOrigin) {
   writeText(folder / "scene.json", "// version: dovetail 0.1.0\n{\"title\": \"A <plate>\", \"gravity\": 1}\n");
   EXPECT_EQ(writeRunReport(folder.path()), folder / "report.html");
   const std::string html = readText(folder / "report.html"), markdown = readText(folder / "report.md");
-  for (const char* part : {"<h1>A &lt;plate&gt;</h1>", "plate kinetic", "4.06467e-06", "element 121", "10.268",
-                           "beyond", "0.0305167", "-1.5e-06", "3.21553e-15", "solids kick and drift", "dovetail 0.1.0"})
+  for (const char* part : {"<h1>A &lt;plate&gt;</h1>", "plate kinetic", "4.0647e-06", "element 121", "10.268", "beyond",
+                           "0.030517", "-1.5e-06", "3.2155e-15", "solids kick and drift", "dovetail 0.1.0"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
-  for (const char* part : {"src=", "href=", "<script", "http://localhost"})
+  for (const char* part : {"src=\"http", "src=\"report", "href=", "<script", "http://localhost"})
     EXPECT_EQ(html.find(part), std::string::npos) << part << ": the page stands alone";
-  for (const char* part : {"# A <plate>", "| particles: kinetic | 0.0589782 | 0.0305167 |", "(report_energies.svg)"})
+  for (const char* part : {"# A &lt;plate>", "| particles: kinetic | 0.058978 | 0.030517 |", "(report_energies.svg)"})
     EXPECT_NE(markdown.find(part), std::string::npos) << part << " in\n" << markdown;
   for (const char* name : {"report_energies.svg", "report_residual.svg", "report_stages.svg"})
     EXPECT_TRUE(io::isOurs(folder / name)) << name;
   writeRunReport(folder.path());  // anew
+}
+
+TEST(RunReport, ThePictureStandsFirstInBothPages) {
+  const ScratchFolder folder;
+  writeText(folder / "summary.json", summary);
+  const std::string png =
+      std::string("\x89PNG\r\n\x1a\n") + std::string(33, 'x') + "Software" + '\0' + "dovetail 0.1.0 abc";
+  writeRunReport(folder.path(), {"picture", "t = 1 s; grains: <speed>", png});
+  const std::string html = readText(folder / "report.html"), markdown = readText(folder / "report.md");
+  EXPECT_NE(html.find("src=\"data:image/png;base64,iVBORw0KGgp4eHh4"), std::string::npos);
+  EXPECT_NE(html.find("grains: &lt;speed&gt;</figcaption>"), std::string::npos);
+  EXPECT_NE(markdown.find("![t = 1 s; grains: &lt;speed>](report_picture.png)"), std::string::npos) << markdown;
+  EXPECT_EQ(readText(folder / "report_picture.png"), png);
+  EXPECT_LT(html.find("<img"), html.find("<svg"));
+  writeRunReport(folder.path());  // without one, none is left
+  EXPECT_FALSE(std::filesystem::exists(folder / "report_picture.png"));
+}
+
+TEST(RunReport, LinesEndWhereAStageRelaxesAndFlatOnesAreLeftOut) {
+  const ScratchFolder folder;
+  std::string rows = "time_s,a_x_m,a_y_m,momentum_x_Ns,momentum_y_Ns,limit_s\n0,0,1,5,1e-17,1e-4\n";
+  for (int k = 0; k < 10; ++k)
+    rows += std::to_string(10.0 + 0.1 * k) + "," + std::to_string(k) + ",1,5,2e-17,1.0000000000001e-4\n";
+  writeText(folder / "series.csv", rows);
+  const std::string html = readText(writeRunReport(folder.path()));
+  EXPECT_NE(html.find("Lines end where no rows were written"), std::string::npos);
+  EXPECT_NE(html.find("<circle"), std::string::npos);  // the row before the gap stands alone
+  EXPECT_EQ(html.find("Momentum"), std::string::npos);
+  EXPECT_EQ(html.find("argest stable step"), std::string::npos);
+  std::size_t lines = 0;
+  for (std::size_t at = html.find("<path class=\"c0\""); at != std::string::npos;
+       at = html.find("<path class=\"c0\"", at + 1))
+    ++lines;
+  EXPECT_EQ(lines, 2u);  // its line and the one of the legend
 }
 
 TEST(RunReport, FiguresOfOneColumnSayWhatItIs) {

@@ -57,6 +57,9 @@ public:
   FramesComparison(std::string name, Comparison& to) : name_(std::move(name)), to_(to) {}
   ~FramesComparison() {
     for (auto& [what, difference] : found_) to_.differences.push_back(std::move(difference));
+    for (const auto& [what, one] : unlike_)
+      to_.unlike.push_back(name_ + ", " + one.first + ": " + one.text +
+                           (one.frames > 1 ? " Likewise in " + std::to_string(one.frames - 1) + " more frames." : ""));
   }
   FramesComparison(const FramesComparison&) = delete;
   FramesComparison& operator=(const FramesComparison&) = delete;
@@ -66,9 +69,9 @@ public:
       const std::vector<Name> first = namesOf(a, perCell), second = namesOf(b, perCell);
       const auto pairs = matched(first, second);
       if (pairs.size() != first.size() || pairs.size() != second.size())
-        to_.unlike.push_back(name_ + ", " + when + ": " + std::to_string(first.size()) + " and " +
-                             std::to_string(second.size()) + (perCell ? " cells" : " points") + ", of which " +
-                             std::to_string(pairs.size()) + " are in both.");
+        note(perCell ? "cells" : "points", when,
+             std::to_string(first.size()) + " and " + std::to_string(second.size()) + (perCell ? " cells" : " points") +
+                 ", of which " + std::to_string(pairs.size()) + " are in both.");
       if (!perCell && !a.find("first", true)) comparePositions(a, b, pairs, when);
       for (const FrameArray& array : a.arrays)
         if (array.perCell == perCell) compareArray(array, b.find(array.name, perCell), pairs, when);
@@ -80,8 +83,13 @@ public:
 private:
   using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
+  /// One line for all frames: what was met first, and in how many.
+  void note(const std::string& what, const std::string& when, const std::string& text) {
+    Unlike& one = unlike_.try_emplace(what, Unlike{when, text, 0}).first->second;
+    ++one.frames;
+  }
   void miss(const std::string& array, const char* owner, const std::string& when) {
-    to_.unlike.push_back(name_ + ", " + when + ": " + array + " is in the " + owner + " only.");
+    note(array, when, array + " is in the " + owner + " only.");
   }
   Difference& quantity(const std::string& what) {
     Difference& difference = found_[what];
@@ -113,6 +121,11 @@ private:
   std::string name_;
   Comparison& to_;
   std::map<std::string, Difference> found_;
+  struct Unlike {
+    std::string first, text;
+    std::size_t frames;
+  };
+  std::map<std::string, Unlike> unlike_;
 };
 
 }  // namespace

@@ -36,7 +36,14 @@ struct Map {
 /// "survived"; "" for none.
 const char* wordOf(Map::Outcome outcome);
 
-using Block = std::variant<Paragraph, Table, Figure, Listing, Map>;
+/// A picture in pixels.
+struct Photo {
+  std::string name;   ///< of its file: letters, digits, '_' and '-'
+  std::string title;  ///< what it shows
+  std::string png;    ///< bytes of a PNG file
+};
+
+using Block = std::variant<Paragraph, Table, Figure, Listing, Map, Photo>;
 
 struct Section {
   std::string heading;
@@ -50,12 +57,15 @@ struct Page {
 /// One file that needs no other, readable on a telephone, light and dark. @param mark  goes into a comment at the top
 std::string htmlOf(const Page& page, const std::string& mark);
 
-/// Markdown. @param figureFile  what stands before a figure's name in the name of its file, to which ".svg" is added
+/// Markdown. @param figureFile  what stands before a figure's name in the name of its file, to which ".svg" is added,
+/// or
+///   ".png" for pictures
 std::string markdownOf(const Page& page, const std::string& figureFile);
 /// A table alone.
 std::string markdownOf(const Table& table);
 
 /// All figures of the page in their order.
 std::vector<const Figure*> figuresOf(const Page& page);
+std::vector<const Photo*> photosOf(const Page& page);
 
 }  // namespace dovetail::report

@@ -10,11 +10,12 @@ namespace dovetail::report {
 
 /// Figures of energies, residual, momenta, forces and time per stage; tables of the energy balance, of errors where the
 /// run has a reference, of residuals, times, the critical step and what sets it; warnings, provenance, the scene.
-Page pageOf(const RunRecord& record);
+/// @param photo  of the run, first on the page; without bytes there is none
+Page pageOf(const RunRecord& record, const Photo& photo = {});
 
 /// Writes report.html, which needs no other file, and report.md with a file report_<name>.svg per figure into the
 /// folder of the run.
 /// @return the HTML file. @throws InputError as readRunFolder, or if a name is taken by a file that is not from a run
-std::filesystem::path writeRunReport(const std::filesystem::path& folder);
+std::filesystem::path writeRunReport(const std::filesystem::path& folder, const Photo& photo = {});
 
 }  // namespace dovetail::report
