@@ -22,13 +22,13 @@ geometry::Box boxIn(const std::string& text) {
 }  // namespace
 
 bool writeFields(int argc, char** argv) {
-  std::string run, file;
+  std::string run, file, axis;
   scene::GridOptions settings;
   const Range length = positive("a positive length in metres");
   Options options("dovetail fields",
                   "Density, velocity, stress … of a run's last checkpoint on a grid, as a VTI file.");
   options.text("RUN", run, "folder of a run with a checkpoint").require();
-  options.text("--out FILE", file, "RUN/fields.vti if not given");
+  options.text("--out FILE", file, "RUN/fields.vti, or RUN/profile_z.csv, if not given");
   options.choice("--kernel", settings.shape, "lucy|gauss", "its shape");
   options.number("--width W", settings.width, length, "of the kernel, m; 1.5 mean diameters if not given");
   options.flag("--advise-width", settings.advisesWidth,
@@ -36,9 +36,12 @@ bool writeFields(int argc, char** argv) {
   options.number("--spacing H", settings.spacing, length, "of the points, m; half the width if not given");
   options.add("--box X Y Z X Y Z", "lower and upper corner, m; around all grains if not given",
               [&](const std::string& text) { settings.box = boxIn(text); }, {});
+  options.word("--profile", axis, "x|y|z", "means over layers across this axis, with standard errors, as a CSV file");
   if (!options.parse(argc, argv)) return true;
   options.refuseBoth("--width", "--advise-width");
-  settings.file = file.empty() ? std::filesystem::path(run) / "fields.vti" : std::filesystem::path(file);
+  if (!axis.empty()) settings.profile = axis[0] - 'x';
+  const std::string name = axis.empty() ? "fields.vti" : "profile_" + axis + ".csv";
+  settings.file = file.empty() ? std::filesystem::path(run) / name : std::filesystem::path(file);
   scene::writeGridFields(run, settings, std::cout);
   return true;
 }

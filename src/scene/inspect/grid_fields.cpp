@@ -13,6 +13,7 @@
 #include "dovetail/scene/build.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
+#include "field_profile.hpp"
 #include "run/checkpoints.hpp"
 
 namespace dovetail::scene {
@@ -88,9 +89,10 @@ std::string textOf(double time, const cg::Grid& grid, const cg::Fields& fields, 
 }  // namespace
 
 void writeGridFields(const std::filesystem::path& folder, const GridOptions& settings, std::ostream& log) {
-  if (settings.file.extension() != ".vti")
-    throw InputError("fields on a grid are written as a VTI file", settings.file.string(),
-                     "give a name that ends in .vti");
+  const char* const ending = settings.profile ? ".csv" : ".vti";
+  if (settings.file.extension() != ending)
+    throw InputError(settings.profile ? "profiles are CSV files" : "fields on a grid are written as a VTI file",
+                     settings.file.string(), std::string("give a name that ends in ") + ending);
   io::requireFreeOrOurs(settings.file);
   const Scene scene = readRun(folder);
   const std::string identity = identityOf(scene);
@@ -114,7 +116,10 @@ void writeGridFields(const std::filesystem::path& folder, const GridOptions& set
       io::provenance({{"scene", hashOf(identity)},
                       {"kernel", settings.shape == cg::KernelShape::lucy ? "lucy" : "gauss"},
                       {"width", formatNumber(width) + " m"}});
-  io::writeFileAtomically(settings.file, textOf(now.time, grid, fields, provenance));
+  if (settings.profile)
+    io::writeCsv(settings.file, profileOf(grid, fields, *settings.profile, width), provenance);
+  else
+    io::writeFileAtomically(settings.file, textOf(now.time, grid, fields, provenance));
   log << grid.count[0] << " x " << grid.count[1] << " x " << grid.count[2] << " points of " << spacing
       << " m, kernel of " << width << " m, t = " << now.time << " s: " << settings.file.string() << '\n';
 }
