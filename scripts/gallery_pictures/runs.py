@@ -1,12 +1,16 @@
-"""Runs scenes with the program dovetail and reads what they wrote."""
+"""Runs scenes with the program dovetail and has it draw them."""
 
 import json
+import re
 import subprocess
-import xml.etree.ElementTree as xml
 from pathlib import Path
 
 
-def command(picture):
+def folder_of(picture):
+    return Path("gallery-out") / picture.file
+
+
+def run_command(picture):
     """Arguments of dovetail, as a reader would write them."""
     words = ["run", f"scenes/{picture.scene}.json"]
     for setting in picture.settings:
@@ -14,32 +18,37 @@ def command(picture):
     if picture.contents:
         contents = ["grains", *picture.contents.split(",")]
         words += ["--set", "output.contents=" + json.dumps(contents, separators=(",", ":"))]
-    return words + ["--out", f"gallery-out/{picture.file}"]
+    return words + ["--out", str(folder_of(picture))]
 
 
-class Run:
-    """A folder of a run that is done: `scene` in full with SI values, and its frames."""
+def draw_command(picture):
+    words = ["picture", str(folder_of(picture)), *picture.draw.split()]
+    if picture.frame < 1.0:
+        count = len(list((folder_of(picture) / "grains").glob("*.vtu")))
+        words += ["--frame", str(round(picture.frame * (count - 1)))]
+    return words
 
-    def __init__(self, folder):
-        self.folder = Path(folder)
-        text = (self.folder / "scene.json").read_text(encoding="utf-8")
-        self.scene = json.loads("\n".join(line for line in text.splitlines() if not line.startswith("//")))
 
-    def series(self, name):
-        """[(time in s, path)] of <name>.pvd, empty if there is none."""
-        file = self.folder / f"{name}.pvd"
-        if not file.exists():
-            return []
-        sets = xml.parse(file).getroot().iter("DataSet")
-        return [(float(item.get("timestep")), self.folder / item.get("file")) for item in sets]
+def film_command(picture):
+    return ["picture", str(folder_of(picture)), *picture.draw.split(), "--film", "--size", "450", "400"]
 
-    def frame_count(self):
-        return len(self.series("grains"))
+
+def title(picture):
+    text = Path(f"scenes/{picture.scene}.json").read_text(encoding="utf-8")
+    return picture.heading or re.search(r'"title": "([^"]*)"', text).group(1)
 
 
 def run(program, picture):
-    folder = Path("gallery-out") / picture.file
-    if not (folder / "summary.json").exists():
+    if not (folder_of(picture) / "summary.json").exists():
         print("running", picture.file, flush=True)
-        subprocess.run([program, *command(picture)], check=True, stdout=subprocess.DEVNULL)
-    return Run(folder)
+        subprocess.run([program, *run_command(picture)], check=True, stdout=subprocess.DEVNULL)
+
+
+def draw(program, picture, images):
+    commands = {".png": draw_command(picture)}
+    if picture.animated:
+        commands[".gif"] = film_command(picture)
+    for ending, command in commands.items():
+        file = images / (picture.file + ending)
+        file.unlink(missing_ok=True)
+        subprocess.run([program, *command, "--out", str(file)], check=True)

@@ -100,7 +100,8 @@ void takeSummary(const Json& json, RunRecord& record) {
   for (const Json& line : json.value("warnings", Json::array())) record.warnings.push_back(line);
   for (const Json& line : json.value("notes", Json::array())) record.notes.push_back(line);
   if (json.contains("particles"))
-    record.notes.push_back(textOf(json["particles"]) + format(" particles at t = %.5g s", numberOf(json.at("time_s"))));
+    record.notes.push_back((json["particles"] == 0 ? std::string() : textOf(json["particles"]) + " particles at ") +
+                           format("t = %.5g s", numberOf(json.at("time_s"))));
   if (record.scene.empty()) record.scene = json.value("settings", json.value("scene", Json())).dump(2) + "\n";
 }
 

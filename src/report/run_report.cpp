@@ -60,24 +60,28 @@ std::string nameOf(const std::string& column) {
 /// Title and axis of the columns of a unit that have no figure of their own.
 std::pair<std::string, std::string> titleAndAxis(const std::string& unit, const std::vector<std::string>& columns) {
   std::string name = columns.size() == 1 ? nameOf(columns.front()) : "";
-  const std::map<std::string, std::string> several{{"1", "Numbers of grains"},
-                                                   {"m", "Positions and displacements"},
-                                                   {"m/s", "Velocities"},
-                                                   {"rad/s", "Spins"},
-                                                   {"s", "Times"},
-                                                   {"Pa", "Stresses"},
-                                                   {"Nm", "Moments"},
-                                                   {"kg", "Masses"}};
-  const auto found = several.find(unit);
-  if (name.empty() && found == several.end()) return {"Columns in " + unit, unit};
+  const std::map<std::string, std::pair<std::string, std::string>> several{
+      {"1", {"Numbers of grains", "number"}},
+      {"m", {"Positions and displacements", "length (m)"}},
+      {"m/s", {"Velocities", "velocity (m/s)"}},
+      {"rad/s", {"Spins", "spin (rad/s)"}},
+      {"s", {"Times", "time (s)"}},
+      {"Pa", {"Stresses", "stress (Pa)"}},
+      {"Nm", {"Moments", "moment (Nm)"}},
+      {"kg", {"Masses", "mass (kg)"}}};
   if (name.empty()) {
-    std::string axis = found->second;
-    axis[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(axis[0])));
-    return {found->second, unit == "1" ? "number" : axis + " (" + unit + ")"};
+    const auto found = several.find(unit);
+    return found == several.end() ? std::pair{"Columns in " + unit, unit} : found->second;
   }
   const std::string axis = unit == "1" ? "number" : name + " (" + unit + ")";
   name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
   return {name, axis};
+}
+
+/// The first row of figures: the one at t = 0 stands alone before a stage that relaxes and writes one row at its end.
+std::size_t firstShown(const io::TimeSeries& series) {
+  const std::vector<std::size_t> gaps = gapsIn(series.column("time_s"));
+  return !gaps.empty() && gaps.front() == 1 ? 1 : 0;
 }
 
 bool isResidual(const std::string& column) { return column.find("residual") != std::string::npos; }
@@ -88,8 +92,9 @@ enum class Zero { asTheyAre, atTheStart };
 void addFigure(std::vector<Block>& blocks, const io::TimeSeries& series, const std::string& name,
                const std::string& title, const std::string& axis, std::vector<std::string> columns,
                Zero zero = Zero::asTheyAre) {
+  const std::size_t first = firstShown(series);
   const auto valuesOf = [&](const std::string& column) {
-    const auto stored = series.column(column);
+    const auto stored = series.column(column).subspan(first);
     std::vector<double> values(stored.begin(), stored.end());
     if (zero == Zero::atTheStart && !values.empty())
       for (double& value : values) value -= stored.front();
@@ -106,7 +111,7 @@ void addFigure(std::vector<Block>& blocks, const io::TimeSeries& series, const s
     std::stable_sort(columns.begin(), columns.end(), [&](const auto& a, const auto& b) { return reach(a) > reach(b); });
     columns.resize(mostCurves);
   }
-  const auto time = series.column("time_s");
+  const auto time = series.column("time_s").subspan(first);
   Figure figure{name, title, {"time (s)"}, {axis}, {}, {}};
   std::vector<std::size_t> gaps = gapsIn(time);
   std::reverse(gaps.begin(), gaps.end());
@@ -163,7 +168,8 @@ std::vector<Block> energyBalance(const RunRecord& record) {
   };
   for (const auto& c : record.channels) {
     const bool booked = c.kind == EnergyLedger::Kind::booked;
-    add(c.name + (booked ? " (spent)" : ""), c.joulesAtOpening, c.joules);
+    if (c.joulesAtOpening != 0.0 || c.joules != 0.0)
+      add(c.name + (booked ? " (spent)" : ""), c.joulesAtOpening, c.joules);
     residual += c.joules - c.joulesAtOpening;
     if (booked) continue;
     stored += c.joules;
@@ -233,7 +239,10 @@ Page pageOf(const RunRecord& record, const Photo& photo) {
   page.sections.push_back({"Warnings", linesOf(record.warnings)});
   if (record.series) {
     std::vector<Block> figuresOverTime = figuresOfSeries(*record.series);
-    if (!figuresOverTime.empty() && !gapsIn(record.series->column("time_s")).empty())
+    const std::size_t gaps = gapsIn(record.series->column("time_s")).size(), first = firstShown(*record.series);
+    if (first > 0)
+      figuresOverTime.emplace_back(Paragraph{"Figures begin at the end of the first stage, which relaxes."});
+    if (gaps > first)
       figuresOverTime.emplace_back(
           Paragraph{"Lines end where no rows were written: stages that relax have one at their end."});
     page.sections.push_back({"Over time", std::move(figuresOverTime)});

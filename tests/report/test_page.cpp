@@ -134,13 +134,16 @@ TEST(RunReport, ThePictureStandsFirstInBothPages) {
 
 TEST(RunReport, LinesEndWhereAStageRelaxesAndFlatOnesAreLeftOut) {
   const ScratchFolder folder;
-  std::string rows = "time_s,a_x_m,a_y_m,momentum_x_Ns,momentum_y_Ns,limit_s\n0,0,1,5,1e-17,1e-4\n";
+  std::string rows = "time_s,a_x_m,a_y_m,momentum_x_Ns,momentum_y_Ns,limit_s\n0,77,1,5,1e-17,1e-4\n";
   for (int k = 0; k < 10; ++k)
     rows += std::to_string(10.0 + 0.1 * k) + "," + std::to_string(k) + ",1,5,2e-17,1.0000000000001e-4\n";
+  rows += "30,20,1,5,1e-17,1e-4\n";
   writeText(folder / "series.csv", rows);
   const std::string html = readText(writeRunReport(folder.path()));
+  EXPECT_NE(html.find("begin at the end of the first stage"), std::string::npos);
   EXPECT_NE(html.find("Lines end where no rows were written"), std::string::npos);
-  EXPECT_NE(html.find("<circle"), std::string::npos);  // the row before the gap stands alone
+  EXPECT_NE(html.find("<circle"), std::string::npos);  // the row behind the second gap stands alone
+  EXPECT_EQ(html.find(">80<"), std::string::npos);     // an axis up to the first row, which is not shown
   EXPECT_EQ(html.find("Momentum"), std::string::npos);
   EXPECT_EQ(html.find("argest stable step"), std::string::npos);
   std::size_t lines = 0;
