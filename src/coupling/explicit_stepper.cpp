@@ -84,6 +84,13 @@ public:
     return force;
   }
   double kineticEnergy() const override { return solid_->motion.kineticEnergy(); }
+  void restart() override {
+    uBefore_.clear();
+    forceBefore_.clear();
+    solid_->evaluate(macroStep(), true);
+    solid_->sample();
+    showOwn();
+  }
 
   void sample(EnergyLedger& ledger) override {
     copyChannels(solid_->ledger, kineticEnergy(), ledger);

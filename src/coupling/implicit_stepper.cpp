@@ -82,6 +82,10 @@ public:
     return force;
   }
   double kineticEnergy() const override { return solid_->kineticEnergy(); }
+  void restart() override {
+    byOwnForces_.clear();
+    solid_->restart();
+  }
   void sample(EnergyLedger& ledger) override { copyChannels(solid_->ledger(), kineticEnergy(), ledger); }
 
   void save(ByteWriter& archive) override {

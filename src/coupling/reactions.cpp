@@ -1,4 +1,6 @@
 // What supports and ties do to the nodes of a solid.
+#include <algorithm>
+
 #include "run_impl.hpp"
 
 namespace dovetail::coupling {
@@ -10,7 +12,10 @@ Reactions CoupledRun::reactions(std::size_t k) const {
   const std::vector<Vec3> force = solid.forces();
   std::vector<Vec3> acceleration(force.size()), reaction(force.size());
   mass.dofs().applyAcceleration(solid.side.model->t, macroStep(), acceleration);
-  mass.accelerate(force, acceleration);
+  if (solid.stands)
+    std::ranges::fill(acceleration, Vec3{});
+  else
+    mass.accelerate(force, acceleration);
   mass.multiply(acceleration, reaction);
   for (std::size_t n = 0; n < force.size(); ++n) reaction[n] -= force[n];
   std::vector<Vec3> ties = mass.dofs().splitReactions(reaction);

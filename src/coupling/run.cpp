@@ -145,6 +145,7 @@ bool CoupledRun::Impl::anyImplicit() const {
 }
 
 void CoupledRun::Impl::macroStep(bool wantsEnergies) {
+  for (const auto& solid : solids) solid->stands = false;
   if (options.lag != Lag::none) return lagMacroStep();
   const bool jumpsBetween = K() % 2 == 0 && anyImplicit();
   sampled = wantsEnergies;

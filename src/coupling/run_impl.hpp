@@ -88,6 +88,8 @@ struct CoupledRun::Impl {
   void kickByMacroForce();
   void lagMacroStep();
   void rememberLoads();
+  void requireApart(const char* when) const;
+  void stopSolids();
   Momenta lateLoads() const;
   std::vector<NodalLoad> loadBefore;  ///< per solid: of the evaluation before the last; only with a lag
   std::vector<std::vector<Vec3>> lagFrom, lagTo, lagSeen;  ///< u at the ends of its step, and as last seen; m

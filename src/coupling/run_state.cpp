@@ -62,6 +62,9 @@ struct CoupledRun::Impl::State {
     std::vector<Vec3> seen;
     double supportWork = 0.0;
     ImpulseLedger outside;
+    SolidStepper::StaticWork statics;
+    fem::HeldLoad held;
+    bool stands = false;
   };
   Outside outside;
   std::vector<Solid> solids;
@@ -124,6 +127,9 @@ std::vector<char> CoupledRun::Impl::save() {
     saveLoad(rest, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
     rest(lagSeen.empty() ? std::vector<Vec3>() : lagSeen[s], side.supportWork);
     side.outside.save(rest);
+    const SolidStepper::StaticWork& works = solids[s]->statics;
+    rest(works.loads, works.supports, works.dissipated, works.held, solids[s]->stands);
+    solids[s]->held.save(rest);
     archive(side.name, side.stepping == Stepping::implicitSteps, own.bytes(), rest.bytes());
   }
   outside.save(archive);
@@ -156,6 +162,9 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
     saved.before = readLoad(others, nodes);
     others(saved.seen, saved.supportWork);
     saved.outside.load(others);
+    SolidStepper::StaticWork& works = saved.statics;
+    others(works.loads, works.supports, works.dissipated, works.held, saved.stands);
+    saved.held.load(others);
     requireSame(reader.atEnd() && others.atEnd(), "solids");
     requireSame(options.lag == Lag::none || saved.seen.size() == nodes, "solids");
   }
@@ -186,6 +195,9 @@ void CoupledRun::Impl::adopt(State state) {
     solids[s]->side.load = std::move(state.solids[s].load);
     solids[s]->side.supportWork = state.solids[s].supportWork;
     solids[s]->side.outside = std::move(state.solids[s].outside);
+    solids[s]->statics = state.solids[s].statics;
+    solids[s]->stands = state.solids[s].stands;
+    solids[s]->held = std::move(state.solids[s].held);
     solids[s]->macroLoad = std::move(state.solids[s].macroStep);
     if (options.lag == Lag::none) continue;
     loadBefore.push_back(std::move(state.solids[s].before));

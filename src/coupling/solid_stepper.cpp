@@ -36,15 +36,15 @@ void SolidStepper::kickTouched(const NodalLoad& load, double dt) {
   for (const int node : load.touched) {
     const auto n = static_cast<std::size_t>(node);
     const double scale = dt / nodes.mass[n];
-    Vec3 held;
+    Vec3 toSupports;
     for (int c = 0; c < 3; ++c)
       if (row[3 * n + static_cast<std::size_t>(c)] >= 0)
         nodes.v[n][c] += scale * load.force[n][c];
       else
-        held[c] = -dt * load.force[n][c];
-    if (held == Vec3{}) continue;
-    supports.add(nodes.X[n] + nodes.u[n], held);
-    side.supportWork += dot(held, nodes.v[n]);
+        toSupports[c] = -dt * load.force[n][c];
+    if (toSupports == Vec3{}) continue;
+    supports.add(nodes.X[n] + nodes.u[n], toSupports);
+    side.supportWork += dot(toSupports, nodes.v[n]);
   }
   side.outside.give("supports", supports);
 }
@@ -76,13 +76,19 @@ Momenta totalOf(const NodalLoad& load, const fem::Nodes& nodes) {
 }
 
 void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const {
-  double supports = -side.supportWork;
+  using enum EnergyLedger::Kind;
+  double supports = -side.supportWork - statics.supports;
   for (const EnergyLedger::Channel& channel : own.channels()) {
     if (channel.name == "supports") supports += channel.joules;
     ledger.set(side.name + ": " + channel.name, channel.kind, channel.name == "kinetic" ? kinetic : channel.joules);
   }
-  ledger.set(side.name + ": supports", EnergyLedger::Kind::booked, supports);
-  ledger.set(side.name + ": booked with earlier steps", EnergyLedger::Kind::booked, bookedBefore);
+  ledger.set(side.name + ": supports", booked, supports);
+  ledger.set(side.name + ": booked with earlier steps", booked, bookedBefore);
+  if (!held.holds() && statics.held == 0.0 && !ledger.find(side.name + ": load steps", booked)) return;
+  // What has been held back is no kinetic energy to be damped, though it comes to the same.
+  ledger.set(side.name + ": load steps", booked, -statics.held);
+  ledger.set(side.name + ": work of loads in load steps", booked, -statics.loads);
+  ledger.set(side.name + ": dissipated in load steps", booked, statics.dissipated);
 }
 
 std::unique_ptr<SolidStepper> makeStepper(std::unique_ptr<fem::Model> model, const SolidOptions& options) {

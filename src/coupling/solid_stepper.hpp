@@ -7,6 +7,7 @@
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/coupling/run.hpp"
+#include "dovetail/fem/solve/held_load.hpp"
 
 namespace dovetail::coupling {
 
@@ -23,7 +24,13 @@ public:
 
   SolidSide side;
   double bookedBefore = 0.0;  ///< J, before the last start
-  NodalLoad macroLoad;        ///< N: what constraints do in both half macro steps around their ends
+  fem::HeldLoad held;         ///< what a static stage has yet to release
+  struct StaticWork {
+    double loads = 0.0, supports = 0.0, dissipated = 0.0, held = 0.0;  ///< J, in load steps
+  };
+  StaticWork statics;
+  bool stands = false;  ///< a load step has come last: whatever its supports do next, nothing accelerates
+  NodalLoad macroLoad;  ///< N: what constraints do in both half macro steps around their ends
   ImpulseLedger::Channel loads{"connectors", {}};  ///< what they have given
 
   /// Forces at the start; the ledger of earlier steps is kept as one sum. @param dt  of particles, s @param K  steps
@@ -54,6 +61,12 @@ public:
   /// A step of K dt under `load`, all else standing.
   virtual void stepUnder(const NodalLoad& load) = 0;
 
+  /// The nodes stop; the kinetic energy of the solid's moving supports goes back to them.
+  void stop();
+  /// From rest in equilibrium to rest in equilibrium at `time`, s, while what is held falls to the fraction `after`.
+  /// @throws NumericalError if there is none; the solid is then in the last one
+  void loadStep(double after, double time);
+
   /// What the linear systems of its steps are going to take; nothing if there are none.
   virtual linalg::LinearForecast forecast() { return {}; }
 
@@ -72,6 +85,8 @@ public:
   virtual void adopt(SavedSolid& state) = 0;
 
 protected:
+  /// Begins anew where a load step has left the nodes.
+  virtual void restart() = 0;
   virtual const ImpulseLedger& ownImpulses() const = 0;
   /// v += dt/m f on the touched nodes, held components apart: these give it to the supports.
   void kickTouched(const NodalLoad& load, double dt);

@@ -90,8 +90,9 @@ std::function<double(double)> timeFunction(const std::string& expression,
   };
 }
 
-std::function<double(const Vec3&, double)> fieldFunction(const std::string& expression) {
-  return [parsed = std::make_shared<Expression>(expression, Expression::Variables::timeAndPlace)](
+std::function<double(const Vec3&, double)> fieldFunction(const std::string& expression,
+                                                         const std::map<std::string, double>& constants) {
+  return [parsed = std::make_shared<Expression>(expression, Expression::Variables::timeAndPlace, constants)](
              const Vec3& X, double t) { return parsed->at(X, t); };
 }
 

@@ -63,7 +63,7 @@ TEST(FrameFields, PlasticStrainIsWhatWasDissipated) {
     deform(model.nodes, {1, 1e-3 * step, 0, 0, 1, 0, 0, 0, 1});
     for (const auto& term : model.terms) dissipated += term->commit(model.nodes, {.dt = 1.0});
   }
-  const std::vector<MeshField> history = cellHistory(model, 8, scene.solids[0].material);
+  const std::vector<MeshField> history = cellHistory(model, 8, scene.solids[0]);
   ASSERT_EQ(history.size(), 2U);
   EXPECT_EQ(history[0].name, "plastic_strain");
   double sum = 0.0;
@@ -73,7 +73,7 @@ TEST(FrameFields, PlasticStrainIsWhatWasDissipated) {
   }
   EXPECT_GT(sum, 1.0);
   EXPECT_NEAR(sum, dissipated, 1e-3 * dissipated);  // of second order in the strain
-  EXPECT_TRUE(cellHistory(*build(sceneOf(block)).run->solid(0).model, 8, sceneOf(block).solids[0].material).empty());
+  EXPECT_TRUE(cellHistory(*build(sceneOf(block)).run->solid(0).model, 8, sceneOf(block).solids[0]).empty());
 }
 
 const std::string grains = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],

@@ -125,6 +125,18 @@ const Case relaxing{[](const ScratchFolder& folder) {
 TEST(Restart, AnInterruptedRestGoesOn) { expectSameAfter(relaxing, SIGTERM, 143); }
 TEST(Restart, AKilledRestGoesOn) { expectSameAfter(relaxing, SIGKILL, -1); }
 
+/// Ended among load steps, of which each has a row.
+const Case loading{[](const ScratchFolder& folder) {
+                     return Words{"run",   std::string(SCENES) + "/static-cantilever.json",
+                                  "--out", folder.path().string(),
+                                  "--set", "stages.0.load_steps=60",
+                                  "--set", "stages.0.time=0.6",
+                                  "--set", "output.checkpoints=0.1"};
+                   },
+                   "series.csv", "\n0.1"};
+TEST(Restart, InterruptedLoadStepsGoOn) { expectSameAfter(loading, SIGTERM, 143); }
+TEST(Restart, KilledLoadStepsGoOn) { expectSameAfter(loading, SIGKILL, -1); }
+
 /// Parts of a time that is up at once are as long as a look takes; the last one has time enough.
 TEST(Restart, RunsWhoseTimeIsUpGoOn) {
   const ScratchFolder whole, parted;

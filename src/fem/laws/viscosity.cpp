@@ -8,6 +8,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/vector_code.hpp"
 #include "dovetail/fem/laws/lanes.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/laws/materials.hpp"
 #include "green_moduli.hpp"
 
@@ -15,6 +16,7 @@ namespace dovetail::fem {
 namespace {
 
 constexpr std::size_t metricSize = 6;
+static_assert(viscousHistory == 2 * metricSize + 1);
 /// C at the start of the step; the mean rate of ½C in the step before it, and its length (0: there was none).
 constexpr std::size_t ownSize = 2 * metricSize + 1, ratePlace = metricSize, lengthPlace = 2 * metricSize;
 constexpr std::array<std::size_t, metricSize> metricEntry = {0, 4, 8, 1, 5, 2};  // of a Tensor
@@ -36,6 +38,10 @@ public:
     base_->startHistory(history.subspan(ownSize));
   }
   bool isElastic() const override { return false; }
+  double dampingTime() const override {
+    const auto [confined, shear] = moduliAtRest(*base_);
+    return std::max((lambda_ + 2.0 * mu_) / confined, mu_ / shear);
+  }
   bool feelsRates() const override { return true; }
   bool isSymmetric() const override { return base_->isSymmetric(); }
   std::string whyInvalid(const double* F) const override { return base_->whyInvalid(F); }

@@ -165,6 +165,10 @@ void ImplicitIntegrator::use(const Scheme& scheme) {
   impl_->options.scheme = scheme;
   impl_->solver.use(scheme);
 }
+void ImplicitIntegrator::restart() {
+  impl_->begin(impl_->dt);
+  impl_->sample();
+}
 linalg::LinearForecast ImplicitIntegrator::forecast() { return impl_->solver.forecast(); }
 const ModelMass& ImplicitIntegrator::mass() const { return impl_->mass; }
 const ImpulseLedger& ImplicitIntegrator::impulses() const { return impl_->impulses; }

@@ -57,15 +57,15 @@ std::map<int, Vec3> nodalForces(const SolidMesh& mesh, std::span<const Face> fac
   return forces;
 }
 
-/// A traction that depends on place and time.
+/// A traction that depends on place, normal and time.
 class TractionField : public Term {
 public:
-  TractionField(const SolidMesh& mesh, std::span<const Face> faces, std::function<Vec3(const Vec3&, double)> traction,
-                std::string name)
+  using Traction = std::function<Vec3(const Vec3& X, const Vec3& normal, double t)>;
+  TractionField(const SolidMesh& mesh, std::span<const Face> faces, Traction traction, std::string name)
       : traction_(std::move(traction)), name_(std::move(name)) {
     integrateFaces(mesh, faces, [&](const Face& face, const FacePoint& point, const Vec3& area) {
       const std::span<const int> corners = nodesOf(face);
-      points_.push_back({interpolate(point.N, corners, mesh.X), {}});
+      points_.push_back({interpolate(point.N, corners, mesh.X), normalized(area), {}});
       for (std::size_t a = 0; a < corners.size(); ++a)
         points_.back().fractions.emplace_back(corners[a], point.N[a] * norm(area));
     });
@@ -74,18 +74,18 @@ public:
   bool usesVelocity() const override { return false; }
   void addForces(const Nodes&, const Instant& now, std::span<Vec3> f) override {
     for (const Point& point : points_) {
-      const Vec3 traction = traction_(point.X, now.t);
+      const Vec3 traction = traction_(point.X, point.normal, now.t);
       for (const auto& [n, area] : point.fractions) f[static_cast<std::size_t>(n)] += area * traction;
     }
   }
 
 private:
   struct Point {
-    Vec3 X;
+    Vec3 X, normal;
     std::vector<std::pair<int, double>> fractions;  // node, N dA in m²
   };
   std::vector<Point> points_;
-  std::function<Vec3(const Vec3&, double)> traction_;
+  Traction traction_;
   std::string name_;
 };
 
@@ -109,7 +109,18 @@ std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> 
                                    std::function<Vec3(const Vec3&, double)> traction, std::string name) {
   requireFaces(faces, mesh, "traction");
   if (!traction) throw InputError("there is no function", "traction", "give one, or a vector");
-  return std::make_shared<TractionField>(mesh, faces, std::move(traction), std::move(name));
+  return std::make_shared<TractionField>(
+      mesh, faces, [of = std::move(traction)](const Vec3& X, const Vec3&, double t) { return of(X, t); },
+      std::move(name));
+}
+
+std::shared_ptr<Term> deadPressure(const SolidMesh& mesh, std::span<const Face> faces,
+                                   std::function<double(const Vec3&, double)> p, std::string name) {
+  requireFaces(faces, mesh, "pressure");
+  if (!p) throw InputError("there is no function", "pressure", "give one, or a number");
+  return std::make_shared<TractionField>(
+      mesh, faces, [of = std::move(p)](const Vec3& X, const Vec3& normal, double t) { return -of(X, t) * normal; },
+      std::move(name));
 }
 
 }  // namespace dovetail::fem

@@ -18,9 +18,14 @@ public:
         p_(std::move(p)),
         potential_(potential),
         name_(std::move(name)) {}
+  FollowingPressure(std::span<const Face> faces, double thickness, std::function<double(const Vec3&, double)> field,
+                    std::string name)
+      : FollowingPressure(faces, thickness, 0.0, false, std::move(name)) {
+    field_ = std::move(field);
+  }
   std::string name() const override { return name_; }
   bool isSymmetric() const override { return potential_; }
-  bool hasEnergy() const override { return potential_ && p_.isConstant(); }
+  bool hasEnergy() const override { return potential_ && p_.isConstant(); }  // never of a field
 
   bool usesVelocity() const override { return false; }
   void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
@@ -28,7 +33,7 @@ public:
     for (const Face& face : faces_) {
       const std::span<const int> corners = nodesOf(face);
       visitPoints(face.shape, [&](const FacePoint& point) {
-        const Vec3 load = -p * point.weight * areaAt(face, point, nodes);
+        const Vec3 load = -pressureAt(p, face, point, nodes, now) * point.weight * areaAt(face, point, nodes);
         for (std::size_t a = 0; a < corners.size(); ++a) f[static_cast<std::size_t>(corners[a])] += point.N[a] * load;
       });
     }
@@ -59,15 +64,19 @@ public:
       matrix_.assign(9 * n * n, 0.0);
       visitPoints(face.shape, [&](const FacePoint& point) {
         const Vec3 alongXi = sumOf(point.byXi, corners, nodes), alongEta = alongEtaOf(face, point, nodes);
+        const double at = pressureAt(p, face, point, nodes, now);
         for (std::size_t a = 0; a < n; ++a)
           for (std::size_t b = 0; b < n; ++b)
-            addCross(a, b, n, p * point.weight * point.N[a] * (point.byEta[b] * alongXi - point.byXi[b] * alongEta));
+            addCross(a, b, n, at * point.weight * point.N[a] * (point.byEta[b] * alongXi - point.byXi[b] * alongEta));
       });
       K.add(corners, matrix_);
     }
   }
 
 private:
+  double pressureAt(double p, const Face& face, const FacePoint& point, const Nodes& nodes, const Instant& now) const {
+    return field_ ? field_(interpolate(point.N, nodesOf(face), nodes.X), now.t) : p;
+  }
   static Vec3 sumOf(std::span<const double> coefficient, std::span<const int> corners, const Nodes& nodes) {
     return interpolate(coefficient, corners, nodes.X) + interpolate(coefficient, corners, nodes.u);
   }
@@ -93,6 +102,7 @@ private:
   std::vector<Face> faces_;
   double thickness_;  // of lines, m
   Amplitude p_;
+  std::function<double(const Vec3&, double)> field_;  // in its place
   bool potential_;
   std::string name_;
   std::vector<double> matrix_;
@@ -106,6 +116,13 @@ std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const F
   const std::vector<int> rim = rimNodes(faces);
   const bool potential = std::includes(clamped.begin(), clamped.end(), rim.begin(), rim.end());
   return std::make_shared<FollowingPressure>(faces, mesh.thickness, std::move(p), potential, std::move(name));
+}
+
+std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces,
+                                        std::function<double(const Vec3&, double)> p, std::string name) {
+  requireFaces(faces, mesh, "pressure");
+  if (!p) throw InputError("there is no function", "pressure", "give one, or a number");
+  return std::make_shared<FollowingPressure>(faces, mesh.thickness, std::move(p), std::move(name));
 }
 
 }  // namespace dovetail::fem

@@ -1,8 +1,13 @@
 // Sets, supports, loads and ties of solids of a scene.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <set>
 
+#include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/mesh_places.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "parts.hpp"
 #include "supports.hpp"
@@ -22,6 +27,29 @@ geometry::Box extentOf(const fem::SolidMesh& mesh) {
   return box;
 }
 
+/// Elements all of whose nodes are in a set.
+std::vector<int> elementsOn(const fem::SolidMesh& mesh, const std::vector<int>& nodes) {
+  std::vector<char> isIn(mesh.X.size(), 0);
+  for (const int n : nodes) isIn[static_cast<std::size_t>(n)] = 1;
+  std::vector<int> elements;
+  int next = 0;
+  for (const fem::ElementGroup& group : mesh.groups) {
+    const auto corners = static_cast<std::ptrdiff_t>(fem::nodesOf(group.shape));
+    for (auto at = group.node.begin(); at != group.node.end(); at += corners, ++next)
+      if (std::all_of(at, at + corners, [&](int n) { return isIn[static_cast<std::size_t>(n)] != 0; }))
+        elements.push_back(next);
+  }
+  return elements;
+}
+
+/// Of a flat face with these corners; outwards.
+Vec3 normalOf(const fem::SolidMesh& mesh, const fem::Face& face) {
+  const auto corner = [&](std::size_t k) { return mesh.X[static_cast<std::size_t>(face.node[k])]; };
+  if (fem::dimensionOf(face.shape) == 2) return cross(corner(1) - corner(0), Vec3{0, 0, 1});
+  const std::size_t last = static_cast<std::size_t>(fem::cornersOf(face.shape)) - 1;
+  return cross(corner(last == 3 ? 2 : 1) - corner(0), corner(last) - corner(last == 3 ? 1 : 0));
+}
+
 fem::Place placeOf(const PlaceInBox& place, const geometry::Box&) {
   return fem::inBox(place.box.lower, place.box.upper);
 }
@@ -33,7 +61,17 @@ fem::Place placeOf(const PlaceOnPlane& place, const geometry::Box& extent) {
   return [=, point = place.point](const Vec3& X) { return std::abs(dot(X - point, normal)) <= tolerance; };
 }
 fem::Place placeOf(const PlaceInSphere& place, const geometry::Box&) {
-  return [=](const Vec3& X) { return norm(X - place.centre) <= place.radius; };
+  return [=](const Vec3& X) {
+    const double r = norm(X - place.centre);
+    return r <= place.radius && r >= place.innerRadius;
+  };
+}
+fem::Place placeOf(const PlaceInCylinder& place, const geometry::Box&) {
+  if (norm(place.axis) == 0.0) throw InputError("the axis has no length", "", "give it a direction, such as [0, 0, 1]");
+  return [=, axis = normalized(place.axis)](const Vec3& X) {
+    const double r = norm(cross(axis, X - place.point));
+    return r <= place.radius && r >= place.innerRadius;
+  };
 }
 fem::Place placeOf(const PlaceAtSide& place, const geometry::Box& extent) {
   const int axis = place.side[0] - 'x';
@@ -43,17 +81,61 @@ fem::Place placeOf(const PlaceAtSide& place, const geometry::Box& extent) {
   return [=](const Vec3& X) { return std::abs(X[axis] - end) <= tolerance; };
 }
 
-void add(fem::SolidMesh& mesh, const NamedSet& set) {
-  if (mesh.nodeSets.contains(set.name) || mesh.faceSets.contains(set.name))
-    throw InputError("the mesh already has a set \"" + set.name + "\"", "", "give this one another name");
-  const fem::Place place = std::visit([&](const auto& kind) { return placeOf(kind, extentOf(mesh)); }, set.place);
-  mesh.nodeSets[set.name] = fem::nodesWhere(mesh, place);
+template <class Kind>
+void add(fem::SolidMesh& mesh, const std::string& name, const Kind& kind) {
+  const fem::Place place = placeOf(kind, extentOf(mesh));
+  mesh.nodeSets[name] = fem::nodesWhere(mesh, place);
+  if (std::vector<int> elements = elementsOn(mesh, mesh.nodeSets[name]); !elements.empty())
+    mesh.elementSets[name] = std::move(elements);
   const std::vector<fem::Face> boundary = fem::boundaryFaces(mesh);
   if (std::any_of(boundary.begin(), boundary.end(), [&](const fem::Face& face) {
         return std::all_of(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape),
                            [&](int n) { return place(mesh.X[static_cast<std::size_t>(n)]); });
       }))
-    mesh.faceSets[set.name] = fem::facesWhere(mesh, place);
+    mesh.faceSets[name] = fem::facesWhere(mesh, place);
+}
+
+void add(fem::SolidMesh& mesh, const std::string& name, const FacesTowards& kind) {
+  if (norm(kind.direction) == 0.0)
+    throw InputError("the direction has no length", "", "give it one, such as [0, 0, 1]");
+  std::vector<fem::Face> faces = fem::boundaryFaces(mesh);
+  const Vec3 direction = normalized(kind.direction);
+  std::erase_if(faces, [&](const fem::Face& face) {
+    const Vec3 normal = normalOf(mesh, face);
+    return std::atan2(norm(cross(normal, direction)), dot(normal, direction)) > kind.angle;
+  });
+  if (faces.empty())
+    throw InputError("no face of the boundary looks in this direction", "", "widen the angle, or turn the direction");
+  std::set<int> nodes;
+  for (const fem::Face& face : faces) nodes.insert(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape));
+  mesh.nodeSets[name] = {nodes.begin(), nodes.end()};
+  mesh.faceSets[name] = std::move(faces);
+}
+
+/// Of what both sets have: nodes, faces, elements.
+void add(fem::SolidMesh& mesh, const std::string& name, const CommonPart& kind) {
+  const auto common = [&](auto& sets, const auto& same) {
+    const auto a = sets.find(kind.of), b = sets.find(kind.with);
+    if (a == sets.end() || b == sets.end()) return;
+    auto both = a->second;
+    std::erase_if(both, [&](const auto& one) {
+      return std::ranges::none_of(b->second, [&](const auto& other) { return same(one, other); });
+    });
+    if (!both.empty()) sets[name] = std::move(both);
+  };
+  for (const std::string& part : {kind.of, kind.with})
+    if (!mesh.nodeSets.contains(part) && !mesh.elementSets.contains(part)) fem::nodeSet(mesh, part);  // refuses
+  common(mesh.nodeSets, std::equal_to<>());
+  common(mesh.elementSets, std::equal_to<>());
+  common(mesh.faceSets, [](const fem::Face& a, const fem::Face& b) { return a.node == b.node; });
+  if (!mesh.nodeSets.contains(name) && !mesh.elementSets.contains(name))
+    throw InputError("\"" + kind.of + "\" and \"" + kind.with + "\" have nothing in common", "", "name sets that meet");
+}
+
+void add(fem::SolidMesh& mesh, const NamedSet& set) {
+  if (mesh.nodeSets.contains(set.name) || mesh.faceSets.contains(set.name) || mesh.elementSets.contains(set.name))
+    throw InputError("the mesh already has a set \"" + set.name + "\"", "", "give this one another name");
+  std::visit([&](const auto& kind) { add(mesh, set.name, kind); }, set.place);
 }
 
 /// A number, which lets the load store energy, or a function.
@@ -73,28 +155,78 @@ std::vector<int> clampedIn(const fem::Model& model) {
 struct Loaded {
   fem::Model& model;
   const fem::SolidMesh& mesh;
-  const std::vector<fem::Face>& faces;
+  const std::string& on;
   std::string name;
   const Scene& scene;
+  const std::vector<fem::Face>& faces() const { return fem::faceSet(mesh, on); }
 };
 void add(const Loaded& to, const PressureLoad& load) {
+  if (usesPlace(load.pressure)) {
+    const PlaceFunction pressure = fieldOf(load.pressure, to.scene);
+    to.model.add(load.follows ? fem::followingPressure(to.mesh, to.faces(), pressure, to.name)
+                              : fem::deadPressure(to.mesh, to.faces(), pressure, to.name));
+    return;
+  }
   const fem::Amplitude pressure = amplitudeOf(load.pressure, to.scene);
   if (load.follows)
-    to.model.add(fem::followingPressure(to.mesh, to.faces, pressure, clampedIn(to.model), to.name));
+    to.model.add(fem::followingPressure(to.mesh, to.faces(), pressure, clampedIn(to.model), to.name));
   else
-    to.model.add(fem::deadPressure(to.mesh, to.faces, pressure, to.name));
+    to.model.add(fem::deadPressure(to.mesh, to.faces(), pressure, to.name));
+}
+void add(const Loaded& to, const NodalLoad& load) {
+  const std::vector<int>& nodes = fem::nodeSet(to.mesh, to.on);
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (isConstant(load.force[c]) && load.force[c].number == 0.0) continue;
+    Vec3 part;
+    part[static_cast<int>(c)] = 1.0 / static_cast<double>(nodes.size());
+    to.model.add(fem::nodalForce(nodes, part, amplitudeOf(load.force[c], to.scene), to.name + " along " + "xyz"[c]));
+  }
 }
 void add(const Loaded& to, const TractionLoad& load) {
+  if (usesPlace(load.traction)) {
+    const std::array<PlaceFunction, 3> part{fieldOf(load.traction[0], to.scene), fieldOf(load.traction[1], to.scene),
+                                            fieldOf(load.traction[2], to.scene)};
+    to.model.add(fem::deadTraction(
+        to.mesh, to.faces(),
+        [part](const Vec3& X, double t) {
+          return Vec3{part[0](X, t), part[1](X, t), part[2](X, t)};
+        },
+        to.name));
+    return;
+  }
   for (std::size_t c = 0; c < 3; ++c) {
     if (isConstant(load.traction[c]) && load.traction[c].number == 0.0) continue;
     Vec3 direction;
     direction[static_cast<int>(c)] = 1.0;
-    to.model.add(fem::deadTraction(to.mesh, to.faces, direction, amplitudeOf(load.traction[c], to.scene),
+    to.model.add(fem::deadTraction(to.mesh, to.faces(), direction, amplitudeOf(load.traction[c], to.scene),
                                    to.name + " along " + "xyz"[c]));
   }
 }
 
+void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std::size_t number, const Scene& scene) {
+  const SolidPlane& plane = solid.planes[number];
+  if (norm(plane.normal) == 0.0)
+    throw InputError("the normal has no length", "", "give it a direction, such as [0, 0, 1]");
+  const std::vector<fem::Face>& faces = fem::faceSet(mesh, plane.on);
+  fem::ContactOptions options{.penalty = plane.stiffness.number,
+                              .friction = plane.friction,
+                              .name = "plane " + std::to_string(number) + " on " + plane.on};
+  // With ten times the modulus explicit steps would be a third as long.
+  if (!plane.stiffness.word.empty())
+    options.penalty =
+        (solid.implicitSteps ? 1.0 : 0.1) * fem::contactPenalty(mesh, faces, *makeMaterial(solid.material));
+  fem::Plane rigid{.point = plane.point, .normal = plane.normal};
+  const bool moves = plane.displacement || !isConstant(plane.velocity) || norm(constantOf(plane.velocity)) > 0.0;
+  if (moves) rigid.motion = pathOf(plane.velocity, plane.displacement, scene).displacement;
+  model.add(fem::makeContactPlane(mesh, faces, rigid, options));
+}
+
 }  // namespace
+
+bool hasStatics(const Scene& scene) {
+  return std::ranges::any_of(scene.stages,
+                             [](const Stage& stage) { return std::holds_alternative<Statics>(stage.kind); });
+}
 
 void addSets(fem::SolidMesh& mesh, const Solid& solid) {
   for (const NamedSet& set : solid.sets) atPlace(set.where, [&] { add(mesh, set); });
@@ -109,9 +241,12 @@ void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& s
   for (std::size_t k = 0; k < solid.loads.size(); ++k)
     atPlace(solid.loads[k].where, [&] {
       const Load& load = solid.loads[k];
-      const Loaded to{model, mesh, fem::faceSet(mesh, load.on), "load " + std::to_string(k) + " on " + load.on, scene};
+      const Loaded to{model, mesh, load.on, "load " + std::to_string(k) + " on " + load.on, scene};
       std::visit([&](const auto& kind) { add(to, kind); }, load.kind);
     });
+  if (solid.massDamping > 0.0) model.add(fem::massDamping(solid.massDamping));
+  for (std::size_t k = 0; k < solid.planes.size(); ++k)
+    atPlace(solid.planes[k].where, [&] { add(model, mesh, solid, k, scene); });
 }
 
 }  // namespace dovetail::scene

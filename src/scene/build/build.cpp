@@ -12,6 +12,7 @@
 #include "run/frame_fields.hpp"
 #include "time_functions.hpp"
 #include "warnings/impacts.hpp"
+#include "warnings/warnings.hpp"
 
 namespace dovetail::scene {
 
@@ -106,15 +107,60 @@ void requireStandstill(const Scene& scene) {
     if (goesOn(wall.velocity, wall.angularVelocity)) refuse("a wall", wall.where);
   for (const Drive& drive : scene.drives)
     if (goesOn(drive.velocity, constantOf(drive.spin))) refuse("a drive", drive.where);
-  for (const Solid& solid : scene.solids)
+  for (const Solid& solid : scene.solids) {
     for (const Support& support : solid.supports)
       if (goesOn(support.velocity)) refuse("a support", support.where);
+    for (const SolidPlane& plane : solid.planes)
+      if (goesOn(plane.velocity)) refuse("a plane", plane.where);
+  }
+}
+
+/// Grains stand still in load steps, which know nothing of them.
+void requireStatics(const Scene& scene) {
+  const bool anyGrains = !scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty();
+  for (std::size_t k = 0; k < scene.stages.size(); ++k) {
+    const auto* const statics = std::get_if<Statics>(&scene.stages[k].kind);
+    const bool modes = std::holds_alternative<FindModes>(scene.stages[k].kind);
+    const bool overlaps = std::ranges::any_of(
+        scene.couplings, [](const Coupling& one) { return std::holds_alternative<Overlap>(one.kind); });
+    if (modes && (scene.solids.empty() || overlaps))
+      throw InputError(overlaps ? "modes are those of solids alone, and an overlap ties one to grains"
+                                : "a stage finds the modes of solids, and the scene has none",
+                       scene.stages[k].where, "leave the stage out");
+    if (!statics) continue;
+    const auto refuse = [&](const char* what, const char* remedy) {
+      throw InputError(what, scene.stages[k].where, remedy);
+    };
+    if (scene.solids.empty())
+      refuse("a static stage loads solids, and the scene has none", "add a solid, or relax or run in its place");
+    if (overlaps)
+      refuse("load steps know no grains, and an overlap ties them to a solid",
+             "relax in its place, or give the overlap \"initial_equilibrium\": true");
+    if (!anyGrains) continue;
+    if (statics->time)
+      refuse("time passes in a static stage, and grains would stand still meanwhile",
+             "leave \"time\" out, or the grains");
+    if (k > 0 && !std::holds_alternative<Statics>(scene.stages[k - 1].kind))
+      refuse("load steps know no grains, which may lie on the solids by then",
+             "let static stages be the first ones, or relax in their place");
+  }
+}
+
+/// Explicit steps know the velocity of half a step ago.
+void requireSlowDamping(const Built& built, const Scene& scene) {
+  constexpr double most = 0.5;
+  for (std::size_t s = 0; s < scene.solids.size(); ++s)
+    if (const Solid& solid = scene.solids[s]; !solid.implicitSteps && solid.massDamping * built.run->macroStep() > most)
+      throw InputError("mass_damping is " + formatNumber(solid.massDamping) + " 1/s, " +
+                           rounded(solid.massDamping * built.run->macroStep()) + " in a step of \"" + solid.name + "\"",
+                       solid.where, "take a lower one, a smaller step, or \"stepping\": \"implicit\"");
 }
 
 }  // namespace
 
 Built build(const Scene& scene) {
   requireStandstill(scene);
+  requireStatics(scene);
   if (scene.steps.threads > 0) setThreads(scene.steps.threads);
   Built built;
   built.run = std::make_unique<coupling::CoupledRun>();
@@ -179,6 +225,7 @@ void start(Built& built, const Scene& scene) {
   if (allLeave)
     throw InputError("all grains lie outside of the domain and are removed at once", scene.domain->where,
                      "make domain.box larger, or move the grains into it");
+  requireSlowDamping(built, scene);
   for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
   foreseeSolvers(built);
 }

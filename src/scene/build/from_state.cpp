@@ -34,6 +34,21 @@ void requireSame(const Solid& there, const Solid& here, const std::string& file)
   if (const std::string material = textOfPart(there.material); material != textOfPart(here.material))
     throw InputError("the material of \"" + here.name + "\" differs from that of the state", file,
                      "write \"material\": " + material.substr(0, material.find_last_not_of('\n') + 1));
+  const auto sameRegions = [&] {
+    if (there.regions.size() != here.regions.size()) return false;
+    const auto setNamed = [](const Solid& solid, const std::string& name) {
+      const auto found = std::ranges::find(solid.sets, name, &NamedSet::name);
+      return found == solid.sets.end() ? std::string() : textOfPart(*found);
+    };
+    for (std::size_t k = 0; k < here.regions.size(); ++k)
+      if (textOfPart(there.regions[k]) != textOfPart(here.regions[k]) ||
+          setNamed(there, here.regions[k].elements) != setNamed(here, here.regions[k].elements))
+        return false;
+    return true;
+  };
+  if (!sameRegions())
+    throw InputError("the regions of \"" + here.name + "\" differ from those of the state", file,
+                     "give the solid the regions of the state, and their sets");
   if (there.formulation != here.formulation)
     throw InputError("the elements of \"" + here.name + "\" differ from those of the state", file,
                      "write \"formulation\": \"" + there.formulation + "\"");

@@ -1,6 +1,7 @@
 // Materials of solids of a scene.
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {
@@ -13,9 +14,17 @@ auto make(const StVenantKirchhoff& law, double density) {
 auto make(const NeoHookean& law, double density) {
   return fem::pointMaterial(fem::neoHookean(law.youngsModulus, law.poissonRatio, density));
 }
+fem::YieldCurve yieldOf(const J2Plastic& law) {
+  if (law.hardeningCurve.empty()) return fem::linearYield(law.yieldStress, law.hardening);
+  if (law.hardening > 0.0)
+    throw InputError("both hardening and a hardening_curve are given", "material", "leave one of them out");
+  std::vector<std::pair<double, double>> points{{0.0, law.yieldStress}};
+  for (const YieldPoint& point : law.hardeningCurve) points.emplace_back(point.plasticStrain, point.yieldStress);
+  return fem::tabulatedYield(points);
+}
 auto make(const J2Plastic& law, double density) {
-  return fem::pointMaterial(fem::J2Plasticity{law.youngsModulus, law.poissonRatio, density,
-                                              fem::linearYield(law.yieldStress, law.hardening)});
+  return fem::pointMaterial(fem::J2Plasticity{law.youngsModulus, law.poissonRatio, density, yieldOf(law),
+                                              law.kinematicModulus, law.recovery});
 }
 auto make(const DruckerPrager& law, double density) {
   return fem::pointMaterial(fem::DruckerPrager{law.youngsModulus, law.poissonRatio, density, law.cohesion,
@@ -31,7 +40,45 @@ auto make(const DeformedMetric& law, double density) {
 }  // namespace
 
 std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material) {
-  return std::visit([&](const auto& law) { return make(law, material.density); }, material.law);
+  auto made = std::visit([&](const auto& law) { return make(law, material.density); }, material.law);
+  if (material.dampingTime == 0.0) return made;
+  const auto [modulus, poisson] = std::visit(
+      [](const auto& law) {
+        if constexpr (requires { law.poissonRatio; }) return std::pair{law.youngsModulus, law.poissonRatio};
+        return std::pair{law.youngsModulus, 0.0};
+      },
+      material.law);
+  return fem::pointMaterial(fem::kelvinVoigt(std::move(made), material.dampingTime, modulus, poisson));
+}
+
+std::vector<const SolidMaterial*> materialsOf(const Solid& solid) {
+  std::vector<const SolidMaterial*> all{&solid.material};
+  for (const MaterialRegion& region : solid.regions) all.push_back(&region.material);
+  return all;
+}
+
+const SolidMaterial& materialOf(const Solid& solid, const std::string& term) {
+  const MaterialRegion* found = nullptr;  // the longest name: those of shapes may stand behind it
+  for (const MaterialRegion& region : solid.regions)
+    if (term.starts_with(region.elements) && (!found || region.elements.size() > found->elements.size()))
+      found = &region;
+  return found ? found->material : solid.material;
+}
+
+std::vector<std::size_t> materialByElement(const Solid& solid, const fem::SolidMesh& mesh) {
+  std::vector<std::size_t> numbers(mesh.elementCount(), 0);
+  for (std::size_t k = 0; k < solid.regions.size(); ++k)
+    atPlace(solid.regions[k].where, [&] {
+      for (const int element : fem::elementSet(mesh, solid.regions[k].elements)) {
+        std::size_t& number = numbers[static_cast<std::size_t>(element)];
+        if (number > 0)
+          throw InputError("element " + std::to_string(element) + " is in two regions, \"" +
+                               solid.regions[number - 1].elements + "\" and \"" + solid.regions[k].elements + "\"",
+                           "", "let regions have no element in common");
+        number = k + 1;
+      }
+    });
+  return numbers;
 }
 
 }  // namespace dovetail::scene

@@ -76,13 +76,25 @@ void setContactMaterial(dem::Particles& particles, std::size_t first, int row);
 /// @throws InputError if no VolumeMesher is there, or the surface cannot be filled
 fem::SolidMesh meshOf(const TetrahedraMesh& from, std::vector<std::string>& notes);
 
-/// Puts supports, loads and ties on a solid.
+/// Whether a stage takes load steps.
+bool hasStatics(const Scene& scene);
+/// Puts supports, loads, ties and planes on a solid.
 void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene,
                    std::vector<std::string>& notes);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
 
 std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material);
+/// The first is that of all elements without a region, the others those of the regions.
+std::vector<const SolidMaterial*> materialsOf(const Solid& solid);
+/// Whether it remembers plastic strains.
+inline bool yields(const SolidMaterial& material) {
+  return std::holds_alternative<J2Plastic>(material.law) || std::holds_alternative<DruckerPrager>(material.law);
+}
+/// Of the elements of a term of this name.
+const SolidMaterial& materialOf(const Solid& solid, const std::string& term);
+/// Which of them each element has. @throws InputError for a set that does not exist, or an element in two regions
+std::vector<std::size_t> materialByElement(const Solid& solid, const fem::SolidMesh& mesh);
 /// w of the grains per node of the mesh. @throws InputError for borders between which no node lies
 std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh);
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/fem/elements/solid.hpp"
@@ -37,14 +38,8 @@ fem::SolidMesh meshOf(const Solid& solid, std::vector<std::string>& notes) {
   return meshOf(std::get<TetrahedraMesh>(solid.mesh), notes);
 }
 
-/// A set with the elements of this shape, which may have another name if the file uses that.
-std::string setOfShape(fem::SolidMesh& mesh, fem::ElementShape shape) {
-  std::vector<int> elements;
-  int next = 0;
-  for (const fem::ElementGroup& group : mesh.groups)
-    for (std::size_t e = 0; e < group.size(); ++e, ++next)
-      if (group.shape == shape) elements.push_back(next);
-  std::string name = fem::name(shape);
+/// A set of these elements, which may have another name if the mesh uses that.
+std::string setOf(fem::SolidMesh& mesh, std::string name, const std::vector<int>& elements) {
   while (mesh.elementSets.try_emplace(name, elements).first->second != elements) name += " elements";
   return name;
 }
@@ -71,10 +66,29 @@ const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
 void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
   fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
   if (overlap) options.fraction = arlequin::solidWeights(overlapWeights(*overlap, mesh));
+  const std::vector<std::size_t> material = materialByElement(solid, mesh);
+  const std::vector<const SolidMaterial*> materials = materialsOf(solid);
+  int first = 0;
+  std::set<std::size_t> used;
   for (const fem::ElementGroup& group : mesh.groups) {
-    if (mesh.groups.size() > 1) options.elementSet = options.name = setOfShape(mesh, group.shape);
-    model.add(fem::makeSolid(mesh, makeMaterial(solid.material), options));
+    const int end = first + static_cast<int>(group.size());
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      std::vector<int> elements;
+      for (int e = first; e < end; ++e)
+        if (material[static_cast<std::size_t>(e)] == m) elements.push_back(e);
+      if (elements.empty()) continue;
+      used.insert(m);
+      std::string name = m > 0 ? solid.regions[m - 1].elements : "elements";
+      if (mesh.groups.size() > 1) name = m > 0 ? name + " " + fem::name(group.shape) : fem::name(group.shape);
+      options.name = name;
+      if (elements.size() < mesh.elementCount()) options.elementSet = options.name = setOf(mesh, name, elements);
+      model.add(fem::makeSolid(mesh, makeMaterial(*materials[m]), options));
+    }
+    first = end;
   }
+  if (!used.contains(0))
+    throw InputError("all elements of \"" + solid.name + "\" are in regions, and none has its material", "",
+                     "leave the largest region out, and give the solid its material");
 }
 
 /// Whether the weights of the elements rest on nodes otherwise than lumped masses do.
@@ -124,7 +138,7 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   else
     for (Vec3& v : model->nodes.v) v = solid.velocity;
   addBoundaries(*model, mesh, solid, scene, built.notes);
-  if (solid.linearSolver != 0 && !solid.implicitSteps)
+  if (solid.linearSolver != 0 && !solid.implicitSteps && !hasStatics(scene))
     throw InputError("explicit steps solve no linear systems", "linear_solver",
                      "leave it out, or give \"stepping\": \"implicit\"");
   const double fraction = solid.massFraction.value_or(solid.implicitSteps ? 1.0 : 0.0);

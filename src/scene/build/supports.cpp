@@ -38,44 +38,94 @@ std::string Holders::placeOf(int node, int component) const {
          ", " + rounded(X.z) + ") m";
 }
 
-Holders::Motion Holders::motionOf(const Support& support, int component, const Travel& travel) const {
+namespace {
+
+/// ((R − 1) r) along an axis for the turn of a support, which leaves that along its own axis alone.
+std::function<double(const Vec3&, double)> turnOf(const Support& support, int component, const Scene& scene) {
+  if (!support.point)
+    throw InputError("the turn has no point on its axis", "", "give the support a \"point\", such as [0, 0, 0]");
+  if (norm(support.turn->axis) == 0.0)
+    throw InputError("the axis of the turn has no length", "", "give it a direction, such as [0, 0, 1]");
+  const Vec3 axis = normalized(support.turn->axis);
+  if (std::abs(axis[component]) == 1.0) return {};
+  return [=, angle = travelOf(support.turn->angle, scene).displacement](const Vec3& r, double t) {
+    const double phi = angle(t);
+    const Vec3 turned = std::sin(phi) * cross(axis, r) + (1.0 - std::cos(phi)) * cross(axis, cross(axis, r));
+    return turned[component];
+  };
+}
+
+}  // namespace
+
+double Holders::at(const Motion& motion, int node, double t) const {
+  const auto n = static_cast<std::size_t>(node);
+  return motion.field ? motion.field(mesh_.X[n], model_.nodes.u[n], t) : motion.displacement(t);
+}
+
+Holders::Motion Holders::motionOf(const Support& support, int component) const {
   const auto number = &support - solid_.supports.data();
   const auto c = static_cast<std::size_t>(component);
   Motion motion{.name = "supports item " + std::to_string(number) + " on " + quoted(support.on)};
-  motion.displacement = travel.displacement;
   const TimeValue& velocity = support.velocity[c];
+  PlaceFunction displaced;
   if (support.displacement) {
     const TimeValue& displacement = (*support.displacement)[c];
     motion.steady = isConstant(displacement) && displacement.number == 0.0;
     motion.text = "moved by " + textOf(displacement);
+    if (usesPlace(displacement))
+      displaced = fieldOf(displacement, scene_);
+    else
+      motion.displacement = travelOf(displacement, scene_).displacement;
   } else {
     motion.steady = isConstant(velocity);
     motion.velocity = motion.steady ? velocity.number : 0.0;
     motion.text = "moved with the velocity " + textOf(velocity);
+    motion.displacement = travelAt(velocity, scene_).displacement;
   }
-  if (motion.steady && motion.velocity == 0.0) motion.text = "held";
+  std::function<double(const Vec3&, double)> turned;
+  if (support.turn) turned = turnOf(support, component, scene_);
+  if (motion.steady && motion.velocity == 0.0 && !turned) motion.text = "held";
+  if (turned) {
+    const Vec3& axis = support.turn->axis;
+    motion.text += ", turned by " + textOf(support.turn->angle) + " about [" + rounded(axis.x) + ", " +
+                   rounded(axis.y) + ", " + rounded(axis.z) + "] through (" + rounded(support.point->x) + ", " +
+                   rounded(support.point->y) + ", " + rounded(support.point->z) + ") m";
+    motion.steady = false;
+  }
+  if (!displaced && !turned) return motion;
+  motion.field = [=, point = support.point.value_or(Vec3{}), path = motion.displacement](const Vec3& X, const Vec3& u,
+                                                                                         double t) {
+    return (displaced ? displaced(X, t) : path(t)) + (turned ? turned(X + u - point, t) : 0.0);
+  };
   return motion;
 }
 
-/// At times that no period of a function is likely to share.
-bool Holders::areSame(int first, int second) {
+bool Holders::areSame(int first, int second, int node) {
   if (first == second) return true;
+  const Motion &a = motions_[static_cast<std::size_t>(first)], &b = motions_[static_cast<std::size_t>(second)];
+  if (a.field || b.field) return areAlike(a, b, node);
   const std::pair key{std::min(first, second), std::max(first, second)};
   if (const auto known = same_.find(key); known != same_.end()) return known->second;
-  const Motion &a = motions_[static_cast<std::size_t>(first)], &b = motions_[static_cast<std::size_t>(second)];
+  return same_[key] = areAlike(a, b, node);
+}
+
+/// At times that no period of a function is likely to share.
+bool Holders::areAlike(const Motion& a, const Motion& b, int node) const {
   double largest = 0.0, apart = 0.0;
   constexpr int samples = 199;
   for (int k = 0; k <= samples && a.text != b.text; ++k) {
     const double t = durationOf(scene_) * std::pow(static_cast<double>(k) / samples, 1.37);
-    const double p = a.displacement(t), q = b.displacement(t);
+    const double p = at(a, node, t), q = at(b, node, t);
     largest = std::max({largest, std::abs(p), std::abs(q)});
     apart = std::max(apart, std::abs(p - q));
   }
-  return same_[key] = apart <= 1e-9 * largest;
+  return apart <= 1e-9 * largest;
 }
 
-void Holders::lookForJump(const Motion& motion, int component) {
-  const double jump = motion.displacement(0.0);
+void Holders::lookForJump(const std::vector<int>& set, const Motion& motion, int component) {
+  double jump = 0.0;
+  for (const int node : set)
+    if (const double own = at(motion, node, 0.0); std::abs(own) > std::abs(jump)) jump = own;
   if (jump == 0.0) return;
   jumps_.push_back(
       "WARNING: Of " + quoted(solid_.name) + ", " + motion.name + " moves component " + "xyz"[component] + " by " +
@@ -93,7 +143,7 @@ void Holders::claim(const std::vector<int>& set, int component, Motion motion) {
     if (by == nobody) {
       by = number;
       fresh.push_back(node);
-    } else if (!areSame(by, number)) {
+    } else if (!areSame(by, number, node)) {
       const Motion &other = motions_[static_cast<std::size_t>(by)], &own = motions_.back();
       throw InputError(placeOf(node, component) + " is " + own.text + " here, and " + other.text + " by " + other.name,
                        "",
@@ -104,13 +154,23 @@ void Holders::claim(const std::vector<int>& set, int component, Motion motion) {
   }
   if (fresh.empty()) return;
   const Motion& own = motions_.back();
-  if (!own.steady) return prescribe(fresh, component, own.displacement);
+  // Velocities mean nothing to load steps.
+  if (!own.steady || (own.velocity != 0.0 && hasStatics(scene_))) return prescribe(fresh, component, own);
   fem::fix(model_.nodes, fresh, 1U << component);
   for (const int node : fresh) model_.nodes.v[static_cast<std::size_t>(node)][component] = own.velocity;
 }
 
 /// From where the nodes are: those of a state need not be where they are described.
-void Holders::prescribe(const std::vector<int>& nodes, int component, const TimeFunction& displacement) {
+void Holders::prescribe(const std::vector<int>& nodes, int component, const Motion& motion) {
+  if (motion.field)
+    for (const int node : nodes) {
+      const auto n = static_cast<std::size_t>(node);
+      const Vec3 X = mesh_.X[n], u = model_.nodes.u[n];
+      model_.constraints.prescribe(std::array{node}, component,
+                                   [=, field = motion.field](double t) { return u[component] + field(X, u, t); });
+    }
+  if (motion.field) return;
+  const TimeFunction& displacement = motion.displacement;
   std::map<double, std::vector<int>> byStart;
   for (const int node : nodes) byStart[model_.nodes.u[static_cast<std::size_t>(node)][component]].push_back(node);
   for (const auto& [start, those] : byStart)
@@ -122,7 +182,10 @@ void Holders::prescribe(const std::vector<int>& nodes, int component, const Time
 
 void Holders::hold(const Support& support) {
   const std::vector<int>& set = fem::nodeSet(mesh_, support.on);
-  const std::array<Travel, 3> path = travels(support.velocity, support.displacement, scene_);
+  if (support.displacement && (!isConstant(support.velocity) || norm(constantOf(support.velocity)) > 0.0))
+    throw InputError("both a velocity and a displacement are given", "", "leave one of them out");
+  if (support.point && !support.turn)
+    throw InputError("the support has a point and no turn about it", "", "give it a \"turn\", or leave point out");
   const std::array<bool, 3> held{support.x, support.y, support.z};
   if (std::ranges::count(held, true) == 0)
     throw InputError("components is empty, and the support on " + quoted(support.on) + " holds nothing", "",
@@ -130,8 +193,8 @@ void Holders::hold(const Support& support) {
   for (int c = 0; c < 3; ++c) {
     const auto axis = static_cast<std::size_t>(c);
     if (!held[axis]) continue;
-    Motion motion = motionOf(support, c, path[axis]);
-    if (!motion.steady) lookForJump(motion, c);
+    Motion motion = motionOf(support, c);
+    if (!motion.steady) lookForJump(set, motion, c);
     claim(set, c, std::move(motion));
   }
 }
@@ -139,7 +202,7 @@ void Holders::hold(const Support& support) {
 bool Holders::masterGoesAlong(const fem::Tie& tie, int motion) {
   return std::ranges::all_of(tie.masters, [&](const fem::Tie::Master& master) {
     const int by = heldBy_[indexOf(master.node, master.component)];
-    return std::abs(master.factor) < negligible || (by != nobody && areSame(by, motion));
+    return std::abs(master.factor) < negligible || (by != nobody && areSame(by, motion, master.node));
   });
 }
 

@@ -30,15 +30,19 @@ private:
     bool steady = false;    ///< with `velocity`, from where it lies
     double velocity = 0.0;  ///< m/s
     TimeFunction displacement{};
+    /// In its place, of the undeformed place and the displacement at the start, m, and the time.
+    std::function<double(const Vec3&, const Vec3&, double)> field{};
     std::string text{};
   };
   static constexpr int nobody = -1;
 
-  Motion motionOf(const Support& support, int component, const Travel& travel) const;
+  Motion motionOf(const Support& support, int component) const;
+  double at(const Motion& motion, int node, double t) const;
   void claim(const std::vector<int>& set, int component, Motion motion);
-  void prescribe(const std::vector<int>& nodes, int component, const TimeFunction& displacement);
-  void lookForJump(const Motion& motion, int component);
-  bool areSame(int first, int second);
+  void prescribe(const std::vector<int>& nodes, int component, const Motion& motion);
+  void lookForJump(const std::vector<int>& set, const Motion& motion, int component);
+  bool areSame(int first, int second, int node);
+  bool areAlike(const Motion& a, const Motion& b, int node) const;
   bool masterGoesAlong(const fem::Tie& tie, int motion);
   std::string placeOf(int node, int component) const;
 

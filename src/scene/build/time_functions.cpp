@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "keys/values.hpp"
 #include "read/parameters.hpp"
 
 namespace dovetail::scene {
@@ -62,7 +64,10 @@ private:
 double durationOf(const Scene& scene) {
   double time = 0.0;
   for (const Stage& stage : scene.stages)
-    if (const auto* const plan = std::get_if<RunFor>(&stage.kind)) time += plan->time;
+    if (const auto* const plan = std::get_if<RunFor>(&stage.kind))
+      time += plan->time;
+    else if (const auto* const steps = std::get_if<Statics>(&stage.kind))
+      time += steps->time.value_or(0.0);
   return time > 0.0 ? time : 1.0;
 }
 
@@ -81,6 +86,19 @@ TimeFunction functionOf(const TimeValue& value, const Scene& scene) {
     throw InputError(error.what(), "", "");
   }
   return function;
+}
+
+bool usesPlace(const TimeValue& value) {
+  const std::set<std::string> words = wordsIn(value.expression);
+  return words.contains("x") || words.contains("y") || words.contains("z");
+}
+bool usesPlace(const TimeVector& value) {
+  return std::any_of(value.begin(), value.end(), [](const TimeValue& one) { return usesPlace(one); });
+}
+
+PlaceFunction fieldOf(const TimeValue& value, const Scene& scene) {
+  if (!usesPlace(value)) return [at = functionOf(value, scene)](const Vec3&, double t) { return at(t); };
+  return fieldOf(value.expression, scene.parameters);
 }
 
 Travel travelOf(const TimeValue& displacement, const Scene& scene) {

@@ -11,8 +11,14 @@ using TimeFunction = std::function<double(double)>;
 
 /// The value at time t ≥ 0, s. Copies may not be evaluated by several threads at once.
 TimeFunction functionOf(const TimeValue& value, const Scene& scene);
-/// Of all stages that run for a time, s; 1 if there is none.
+/// Of all stages in which time passes, s; 1 if there is none.
 double durationOf(const Scene& scene);
+using PlaceFunction = std::function<double(const Vec3&, double)>;
+/// The value at a place, m, and time, s: of any.
+PlaceFunction fieldOf(const TimeValue& value, const Scene& scene);
+/// Whether it depends on the place, which the other functions here know nothing of.
+bool usesPlace(const TimeValue& value);
+bool usesPlace(const TimeVector& value);
 bool isConstant(const TimeValue& value);
 bool isConstant(const TimeVector& value);
 /// The numbers of a constant one.

@@ -34,10 +34,23 @@ void describe(Fields& f, Relax& v) {
   f.integer({"macro_steps", "largest number of macro steps"}, v.macroSteps, 1, many);
 }
 void describe(Fields& f, RunFor& v) { f.number({"time", "simulated time"}, v.time, positive(unit::time)); }
+void describe(Fields& f, Statics& v) {
+  f.integer({"load_steps", "in which loads come on; they are halved where there is no equilibrium"}, v.loadSteps, 1,
+            100000);
+  f.number({"time", "that passes for functions of time, in scenes without grains; none if not given"}, v.time,
+           positive(unit::time));
+}
+void describe(Fields& f, FindModes& v) {
+  f.integer({"count", "of the lowest frequencies of each solid"}, v.count, 1, 1000);
+}
 void describe(Fields& f, Stage& v) {
-  static constexpr const char* kinds[] = {"relax", "run"};
+  static constexpr const char* kinds[] = {"relax", "run", "statics", "modes"};
   f.where(v.where);
-  f.oneOf({"do", "bring the system to rest by kinetic damping, or run for a time"}, v.kind, kinds);
+  f.oneOf(
+      {"do",
+       "bring the system to rest by kinetic damping, run for a time, load the solids alone through equilibria, or find "
+       "their frequencies as they are then"},
+      v.kind, kinds);
 }
 void describe(Fields& f, Steps& v) {
   static constexpr const char* automatic[] = {"auto"};

@@ -33,11 +33,22 @@ void describe(Fields& f, NeoHookean& v) {
   young(f, v.youngsModulus);
   poisson(f, v.poissonRatio);
 }
+void describe(Fields& f, YieldPoint& v) {
+  f.number({"plastic_strain", "accumulated; above that of the point before"}, v.plasticStrain, positive(unit::none));
+  f.number({"yield_stress", "there"}, v.yieldStress, positive(unit::pressure));
+}
 void describe(Fields& f, J2Plastic& v) {
   young(f, v.youngsModulus);
   poisson(f, v.poissonRatio);
   f.number({"yield_stress", "initial value"}, v.yieldStress, positive(unit::pressure));
   f.number({"hardening", "increase of the yield stress per plastic strain"}, v.hardening, notNegative(unit::pressure));
+  f.list({"hardening_curve", "in place of hardening: further points, straight between them and level behind the last"},
+         v.hardeningCurve);
+  f.number({"kinematic_modulus", "increase of the back stress per plastic strain (kinematic hardening)"},
+           v.kinematicModulus, notNegative(unit::pressure));
+  f.number(
+      {"recovery", "of the back stress, which saturates at kinematic_modulus/recovery (Armstrong & Frederick 1966)"},
+      v.recovery, notNegative(unit::none));
 }
 void describe(Fields& f, DruckerPrager& v) {
   young(f, v.youngsModulus);
@@ -60,6 +71,14 @@ void describe(Fields& f, SolidMaterial& v) {
            "Eq. 34)"},
           v.law, laws);
   density(f, v.density);
+  f.number(
+      {"damping_time", "viscosities over elastic moduli: the damping ratio of a mode of frequency f is pi*f times it"},
+      v.dampingTime, notNegative(unit::time));
+}
+void describe(Fields& f, MaterialRegion& v) {
+  f.where(v.where);
+  f.text({"elements", "element set: of the mesh, or one of the sets of the solid"}, v.elements, true);
+  f.object({"material", "of these elements"}, v.material);
 }
 void describe(Fields& f, PlaceInBox& v) { f.box({"box", "including its boundary"}, v.box); }
 void describe(Fields& f, PlaceOnPlane& v) {
@@ -71,13 +90,32 @@ void describe(Fields& f, PlaceOnPlane& v) {
 void describe(Fields& f, PlaceInSphere& v) {
   f.vector({"centre", "of the sphere"}, v.centre, unit::length);
   f.number({"radius", "of the sphere"}, v.radius, positive(unit::length));
+  f.number({"inner_radius", "of a sphere that is left out"}, v.innerRadius, notNegative(unit::length));
+}
+void describe(Fields& f, PlaceInCylinder& v) {
+  f.vector({"point", "on the axis"}, v.point, unit::length);
+  f.vector({"axis", "direction, of any length"}, v.axis, unit::none);
+  f.number({"radius", "of the cylinder, which is infinitely long"}, v.radius, positive(unit::length));
+  f.number({"inner_radius", "of a cylinder that is left out"}, v.innerRadius, notNegative(unit::length));
+}
+void describe(Fields& f, FacesTowards& v) {
+  f.vector({"direction", "of any length"}, v.direction, unit::none);
+  f.number({"angle", "largest, between it and the outer normals of boundary faces"}, v.angle,
+           {unit::angle, 0.0, 3.2, true});
+}
+void describe(Fields& f, CommonPart& v) {
+  f.text({"of", "set: of the mesh, or above"}, v.of, true);
+  f.text({"and", "set: of the mesh, or above"}, v.with, true);
 }
 void describe(Fields& f, PlaceAtSide& v) { f.word({"side", "at the least or largest coordinate"}, v.side, sides); }
 void describe(Fields& f, NamedSet& v) {
-  static constexpr const char* places[] = {"side", "box", "plane", "sphere"};
+  static constexpr const char* places[] = {"side", "box", "plane", "sphere", "cylinder", "faces", "common"};
   f.where(v.where);
-  f.text({"name", "for supports, loads, ties and couplings"}, v.name, true);
-  f.oneOf({"place", "of its nodes; it has the boundary faces all of whose nodes are in it"}, v.place, places);
+  f.text({"name", "for supports, loads, ties, regions, planes and couplings"}, v.name, true);
+  f.oneOf({"place",
+           "of its nodes; it has the elements and boundary faces all of whose nodes are in it; faces: by their "
+           "direction; common: what two sets have in common"},
+          v.place, places);
 }
 void describe(Fields& f, Support& v) {
   f.where(v.where);
@@ -85,27 +123,52 @@ void describe(Fields& f, Support& v) {
   std::array<bool, 3> held{v.x, v.y, v.z};
   f.axes({"components", "that are held"}, held, false);
   v.x = held[0], v.y = held[1], v.z = held[2];
-  path(f, v.velocity, v.displacement);
+  f.functions({"velocity", "may be expressions of the time t"}, v.velocity, unit::velocity);
+  f.functions(
+      {"displacement", "in place of a velocity: expressions of the time t and the undeformed place x, y, z", true},
+      v.displacement, unit::length);
+  f.object({"turn", "rotation of the nodes about an axis, beside their displacement"}, v.turn);
+  f.vector({"point", "on the axis of the turn"}, v.point, unit::length);
 }
 void describe(Fields& f, PressureLoad& v) {
-  f.function({"pressure", "on the faces; may be an expression of the time t"}, v.pressure, any(unit::pressure));
+  f.function({"pressure", "on the faces; may be an expression of the time t and the undeformed place x, y, z", true},
+             v.pressure, any(unit::pressure));
   f.flag({"follows", "whether it acts on the deformed faces (follower load)"}, v.follows);
 }
 void describe(Fields& f, TractionLoad& v) {
-  f.functions({"traction", "force per undeformed area of the faces; may be expressions of the time t"}, v.traction,
-              unit::pressure);
+  f.functions({"traction",
+               "force per undeformed area of the faces; may be expressions of the time t and the undeformed place x, "
+               "y, z",
+               true},
+              v.traction, unit::pressure);
+}
+void describe(Fields& f, NodalLoad& v) {
+  f.functions({"force", "in all, in equal parts on the nodes; may be expressions of the time t"}, v.force, unit::force);
 }
 void describe(Fields& f, Load& v) {
-  static constexpr const char* kinds[] = {"pressure", "traction"};
+  static constexpr const char* kinds[] = {"pressure", "traction", "force"};
   f.where(v.where);
-  f.text({"on", "face set: of the mesh, or one of the sets of the solid"}, v.on, true);
-  f.oneOf({"type", "normal to the faces, or in a given direction"}, v.kind, kinds);
+  f.text({"on", "face set, of forces node set: of the mesh, or one of the sets of the solid"}, v.on, true);
+  f.oneOf({"type", "normal to the faces, in a given direction, or a force on nodes"}, v.kind, kinds);
 }
 void describe(Fields& f, MeshTie& v) {
   f.where(v.where);
   f.text({"nodes", "node set that is tied to the faces: that of the finer mesh"}, v.nodes, true);
   f.text({"faces", "face set"}, v.faces, true);
   f.number({"tolerance", "largest distance of a node from the faces"}, v.tolerance, positive(unit::length));
+}
+void describe(Fields& f, SolidPlane& v) {
+  static constexpr const char* automatic[] = {"auto"};
+  f.where(v.where);
+  f.text({"on", "face set: of the mesh, or one of the sets of the solid"}, v.on, false);
+  f.vector({"point", "on the plane"}, v.point, unit::length);
+  f.vector({"normal", "towards the solid, of any length"}, v.normal, unit::none);
+  path(f, v.velocity, v.displacement);
+  f.numberOrWord({"stiffness",
+                  "pressure per penetration; auto: ten times the confined modulus over the size of the faces, with "
+                  "explicit steps once"},
+                 v.stiffness, positive(unit::pressurePerLength), automatic);
+  f.number({"friction", "Coulomb's coefficient"}, v.friction, notNegative(unit::none));
 }
 void describe(Fields& f, StateOfSolid& v) {
   f.file({"file",
@@ -126,23 +189,29 @@ void describe(Fields& f, Solid& v) {
       {"mesh", "a box of cells, one from a file, or tet4 in a closed surface where the build has CGAL in the program"},
       v.mesh, meshes);
   f.object({"material", "of the solid"}, v.material);
+  f.list({"regions", "elements of other materials"}, v.regions);
   f.word({"formulation", "of the elements"}, v.formulation, formulations);
   f.flag({"gravity", "whether gravity acts on it"}, v.gravity);
   f.choice({"stepping", "time integration"}, v.implicitSteps, steppings);
   f.choice({"linear_solver",
-            "of implicit steps; auto: direct as long as the factors take no more than 2 GiB, else conjugate gradients, "
+            "of implicit steps and load steps; auto: direct as long as the factors take no more than 2 GiB, else "
+            "conjugate gradients, "
             "which take a fraction of the memory"},
            v.linearSolver, solvers);
   f.number({"consistent_mass",
             "fraction of the consistent mass, the rest is lumped; if not given, 1 with implicit steps, else 0; (1 - "
             "(d/h)^2)/2 gives elements of edge h the wave dispersion of a lattice of grains of diameter d"},
            v.massFraction, between(0.0, 1.0));
+  f.number(
+      {"mass_damping", "force over mass and velocity: the damping ratio of a mode of frequency f is it over 4*pi*f"},
+      v.massDamping, notNegative(unit::rate));
   f.object({"state", "initial state, of another run"}, v.state);
   velocity(f, v.velocity, "of all its nodes at the start, added to that of the state");
   f.list({"sets", "nodes and faces by their place"}, v.sets);
   f.list({"supports", "nodes that are held or moved"}, v.supports);
-  f.list({"loads", "on faces"}, v.loads);
+  f.list({"loads", "on faces and nodes"}, v.loads);
   f.list({"ties", "of parts of the mesh that do not share nodes"}, v.ties);
+  f.list({"planes", "rigid planes that faces of the solid cannot pass"}, v.planes);
 }
 
 // ---- couplings

@@ -32,7 +32,7 @@ void describe(Fields& f, Probe& v) {
   f.oneOf(
       {"of",
        "position and velocity of a grain, displacement of a node, force of the grains on a wall, force and moment of "
-       "a drive on its grains, force of a support on its solid, or number and mean velocity of the grains in a region"},
+       "a drive on its grains or of a support on its solid, or number and mean velocity of the grains in a region"},
       v.of, kinds);
 }
 void describe(Fields& f, Output& v) {

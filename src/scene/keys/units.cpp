@@ -140,8 +140,12 @@ std::vector<std::string> likelyQuantities(const std::string& whole) {
 }
 
 std::string siName(const Dimension& d) {
-  constexpr std::array<std::pair<Dimension, const char*>, 4> named = {
-      {{unit::pressure, "Pa"}, {unit::stiffness, "N/m"}, {unit::penalty, "Pa/m2"}, {unit::massRate, "kg/s"}}};
+  constexpr std::array<std::pair<Dimension, const char*>, 6> named = {{{unit::pressure, "Pa"},
+                                                                       {unit::force, "N"},
+                                                                       {unit::pressurePerLength, "Pa/m"},
+                                                                       {unit::stiffness, "N/m"},
+                                                                       {unit::penalty, "Pa/m2"},
+                                                                       {unit::massRate, "kg/s"}}};
   for (const auto& [dimension, name] : named)
     if (d == dimension) return name;
   std::string above, below;

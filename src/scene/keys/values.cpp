@@ -145,19 +145,28 @@ double Values::wholeOf(const Node& node, Key key, double least, double most) con
 TimeValue Values::timeValueOf(const Node& node, Key key, const Limits& limits) {
   // "2*t" is two tonnes where a mass is wanted, and the time doubled elsewhere.
   const auto quantity = node.kind == Node::Kind::text ? quantityIn(node.text) : std::nullopt;
+  if (key.ofPlace && node.kind == Node::Kind::text && !quantity)
+    for (const std::string& word : wordsIn(node.text))
+      if ((word == "x" || word == "y" || word == "z") && document_.names.contains(word))
+        refuse(node, named(key) + " is " + nameOf(node) + ", and \"" + word + "\" is both a coordinate and a parameter",
+               "give the parameter another name");
   const bool isNumber = node.kind != Node::Kind::text ||
                         (quantity && (quantity->dimension == limits.dimension || quantity->dimension == unit::none));
   if (isNumber || isExpression([&] { valueOf(node.text, document_.parameters); }))
     return {numberOf(node, key, limits), ""};
   try {
-    functionOf(node.text, document_.parameters);
+    if (key.ofPlace)
+      fieldOf(node.text, document_.parameters);
+    else
+      functionOf(node.text, document_.parameters);
   } catch (const InputError& error) {
     if (quantity) return {numberOf(node, key, limits), ""};  // refused: it has another unit
     refuse(
         node,
         named(key) + " is " + nameOf(node) + ", which is no number with a unit, and as an expression: " + error.what(),
         guessAt(node.text) +
-            "write a number, one with a unit (\"5 mm\"), or an expression of parameters and the time t");
+            "write a number, one with a unit (\"5 mm\"), or an expression of parameters and the time t" +
+            (key.ofPlace ? " and the place x, y, z" : ""));
   }
   document_.functionsOfTime += node.text + " ";
   return {0.0, node.text};

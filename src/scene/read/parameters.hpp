@@ -17,4 +17,7 @@ double valueOf(const std::string& expression, const Parameters& parameters);
 ///         value is not finite
 std::function<double(double)> functionOf(const std::string& expression, const Parameters& parameters);
 
+/// The same of the place x, y, z, m, and the time. No parameter may have the name of a coordinate.
+std::function<double(const Vec3&, double)> fieldOf(const std::string& expression, const Parameters& parameters);
+
 }  // namespace dovetail::scene

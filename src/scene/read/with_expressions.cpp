@@ -11,4 +11,8 @@ std::function<double(double)> functionOf(const std::string& expression, const Pa
   return expressions::timeFunction(expression, parameters);
 }
 
+std::function<double(const Vec3&, double)> fieldOf(const std::string& expression, const Parameters& parameters) {
+  return expressions::fieldFunction(expression, parameters);
+}
+
 }  // namespace dovetail::scene

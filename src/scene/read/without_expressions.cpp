@@ -16,5 +16,8 @@ double valueOf(const std::string& expression, const Parameters& parameters) {
 }
 
 std::function<double(double)> functionOf(const std::string& expression, const Parameters&) { refuse(expression); }
+std::function<double(const Vec3&, double)> fieldOf(const std::string& expression, const Parameters&) {
+  refuse(expression);
+}
 
 }  // namespace dovetail::scene

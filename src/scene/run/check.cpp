@@ -3,6 +3,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "build/parts.hpp"
 #include "dovetail/core/memory.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/scene/execute.hpp"
@@ -76,6 +77,10 @@ void reportTime(Built& built, const Scene& scene, const Plan& plan, std::ostream
     if (const auto* const run = std::get_if<RunFor>(&scene.stages[k].kind)) {
       wanted += plan.stages[k];
       time += run->time;
+    } else if (std::holds_alternative<Statics>(scene.stages[k].kind)) {
+      log << "stage " << k + 1 << ": " << plan.stages[k] << " load steps of the solids\n";
+    } else if (const auto* const modes = std::get_if<FindModes>(&scene.stages[k].kind)) {
+      log << "stage " << k + 1 << ": " << modes->count << " modes of each solid\n";
     } else {
       atMost += plan.stages[k];
     }
@@ -109,7 +114,7 @@ void reportMemory(const Built& built, std::ostream& log) {
 std::vector<std::string> seriesColumns(const Scene& scene) {
   Built built = build(scene);
   start(built, scene);
-  return Series(built, scene.output.probes, {}).table().names();
+  return Series(built, scene.output.probes, {.loadSteps = hasStatics(scene)}).table().names();
 }
 
 void check(const Scene& scene, std::ostream& log) {

@@ -7,11 +7,13 @@
 #include <ostream>
 #include <utility>
 
+#include "build/parts.hpp"
 #include "checkpoints.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/fem/solve/modes.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/read.hpp"
@@ -53,8 +55,9 @@ public:
     start(built_, scene_);
     plan_ = planOf(built_, scene_);
     if (plan_.series > 0)
-      series_ = std::make_unique<Series>(built_, scene_.output.probes,
-                                         SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series});
+      series_ = std::make_unique<Series>(
+          built_, scene_.output.probes,
+          SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series, hasStatics(scene_)});
     if (goesOn) takeState();
     if (plan_.frames > 0)
       frames_ = std::make_unique<Frames>(built_, scene_, settings.folder, provenance_, progress_.frames);
@@ -71,11 +74,16 @@ public:
   bool finish() {
     counted_ = Clock::now();
     for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.macroStep = 0) {
-      const auto* const relax = std::get_if<Relax>(&scene_.stages[progress_.stage].kind);
-      if (!(relax ? comeToRest(*relax) : runFor(plan_.stages[progress_.stage]))) return stop();
+      const Stage& stage = scene_.stages[progress_.stage];
+      const auto* const relax = std::get_if<Relax>(&stage.kind);
+      const auto* const statics = std::get_if<Statics>(&stage.kind);
+      const auto* const modes = std::get_if<FindModes>(&stage.kind);
+      if (modes) findModes(*modes, stage.where);
+      if (!(relax ? comeToRest(*relax) : statics ? load(*statics) : runFor(plan_.stages[progress_.stage])))
+        return stop();
       // Before what only an end has: longer runs go on from here.
       if (progress_.stage + 1 == scene_.stages.size() && plan_.checkpoints > 0) checkpoint();
-      relax ? endRest() : endRun();
+      relax ? endRest() : statics ? endLoad(*statics) : modes ? void() : endRun();
       countTime();
       log_ << lineOf(progress_.stage) << std::endl;
     }
@@ -93,7 +101,10 @@ public:
 private:
   fs::path file(const char* name) const { return settings_.folder / name; }
   static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
-  static const char* nameOf(const Stage& stage) { return std::holds_alternative<Relax>(stage.kind) ? "relax" : "run"; }
+  static const char* nameOf(const Stage& stage) {
+    constexpr std::array names{"relax", "run", "statics", "modes"};
+    return names[stage.kind.index()];
+  }
   std::string lineOf(std::size_t stage) const {
     return "stage " + std::to_string(stage + 1) + ": " + formatNumber(rounded(seconds_[stage])) + " s";
   }
@@ -156,6 +167,49 @@ private:
   void endRun() {
     if (!due(plan_.series)) sample(0);
     if (!due(plan_.frames)) frame(0);
+  }
+
+  /// Load steps in which time passes are as many instants; otherwise there is but one.
+  bool load(const Statics& statics) {
+    const double time = statics.time.value_or(0.0) / static_cast<double>(statics.loadSteps);
+    while (progress_.macroStep < statics.loadSteps) {
+      built_.run->loadStep(progress_.macroStep++, statics.loadSteps, time);
+      if (time == 0.0 && progress_.macroStep < statics.loadSteps) {
+        if (io::interruption() != 0) return false;
+        continue;
+      }
+      sample(0);
+      frame(0);
+      if (plan_.checkpoints > 0 && progress_.macroStep < statics.loadSteps) checkpoint();
+      if (io::interruption() != 0 && progress_.macroStep < statics.loadSteps) return false;
+    }
+    return true;
+  }
+  /// A row per solid and mode of modes.csv.
+  void findModes(const FindModes& wanted, const std::string& where) {
+    io::TimeSeries table({"stage", "solid", "mode", "frequency_Hz"});
+    for (std::size_t s = 0; s < built_.run->solids(); ++s) {
+      const coupling::SolidSide& side = built_.run->solid(s);
+      fem::ModesOptions options{.count = wanted.count, .massFraction = side.mass->fraction()};
+      options.linear.method = static_cast<linalg::LinearMethod>(scene_.solids[s].linearSolver);
+      const fem::Modes modes = atPlace(where, [&] { return fem::modesOf(*side.model, options); });
+      std::string line;
+      for (std::size_t m = 0; m < modes.frequency.size(); ++m) {
+        table.append({static_cast<double>(progress_.stage + 1), static_cast<double>(s), static_cast<double>(m + 1),
+                      modes.frequency[m]});
+        if (m < 6) line += (m > 0 ? ", " : "") + formatNumber(modes.frequency[m]);
+      }
+      remark("frequencies of \"" + side.name + "\": " + line + (modes.frequency.size() > 6 ? ", … Hz" : " Hz"), false);
+    }
+    io::writeCsv(file(modesFile), table, provenance_);
+  }
+  void endLoad(const Statics& statics) {
+    double farthest = 0.0;
+    for (std::size_t s = 0; s < built_.run->solids(); ++s)
+      for (const Vec3& u : built_.run->solid(s).nodes().u) farthest = std::max(farthest, norm(u));
+    remark("in equilibrium after " + std::to_string(statics.loadSteps) + " load steps: nodes are up to " +
+               formatNumber(farthest) + " m from their undeformed places",
+           false);
   }
 
   bool runFor(std::int64_t macroSteps) {

@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
+#include "build/parts.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
 #include "dovetail/dem/walls/facet_tractions.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
+#include "dovetail/fem/laws/viscosity.hpp"
 
 namespace dovetail::scene {
 
@@ -86,29 +89,42 @@ CellStress cellStress(const fem::Model& model, std::size_t elements) {
   return stress;
 }
 
-std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const SolidMaterial& material) {
-  const bool flows =
-      std::holds_alternative<J2Plastic>(material.law) || std::holds_alternative<DruckerPrager>(material.law);
+std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const Solid& file) {
   std::size_t size = 0;
-  forEachSolid(model, [&](const fem::Solid&, const fem::Solid::Sample& sample) {
-    if (!sample.element.empty()) size = std::max(size, sample.history.size() / sample.element.size());
+  bool flows = false;
+  const auto forEachHistory = [&](auto&& act) {
+    forEachSolid(model, [&](const fem::Solid& solid, const fem::Solid::Sample& sample) {
+      if (sample.element.empty() || sample.history.empty()) return;
+      const SolidMaterial& material = materialOf(file, solid.name());
+      const std::size_t own = sample.history.size() / sample.element.size();
+      const std::size_t skipped = material.dampingTime > 0.0 ? fem::viscousHistory : 0;
+      for (std::size_t q = 0; q < sample.element.size(); ++q)
+        act(material, sample.element[q], sample.volume[q],
+            std::span<const double>(&sample.history[own * q], own).subspan(skipped));
+    });
+  };
+  forEachHistory([&](const SolidMaterial& material, int, double, std::span<const double> history) {
+    if (yields(material))
+      flows = true;
+    else
+      size = std::max(size, history.size());
   });
-  if (size == 0) return {};
   Means strain(elements, 1), volume(elements, 1), all(elements, size);
-  forEachSolid(model, [&](const fem::Solid&, const fem::Solid::Sample& sample) {
-    for (std::size_t q = 0; q < sample.element.size(); ++q) {
-      const std::span<const double> history(&sample.history[size * q], size);
-      if (!flows) {
-        all.add(sample.element[q], sample.volume[q], history.data());
-        continue;
-      }
-      const double a = fem::plasticStrain(history), v = fem::plasticVolume(history);
-      strain.add(sample.element[q], sample.volume[q], &a);
-      volume.add(sample.element[q], sample.volume[q], &v);
+  std::vector<double> others(size, 0.0);
+  forEachHistory([&](const SolidMaterial& material, int element, double weight, std::span<const double> history) {
+    if (!yields(material)) {
+      std::copy(history.begin(), history.end(), others.begin());
+      if (size > 0) all.add(element, weight, others.data());
+      return;
     }
+    const double a = fem::plasticStrain(history), v = fem::plasticVolume(history);
+    strain.add(element, weight, &a);
+    volume.add(element, weight, &v);
   });
-  if (flows) return {{"plastic_strain", strain.take()}, {"plastic_volume", volume.take()}};
-  return {{"history", all.take(), static_cast<int>(size)}};
+  std::vector<MeshField> fields;
+  if (flows) fields = {{"plastic_strain", strain.take()}, {"plastic_volume", volume.take()}};
+  if (size > 0) fields.push_back({"history", all.take(), static_cast<int>(size)});
+  return fields;
 }
 
 std::vector<double> fractionOf(const fem::Model& model) {
@@ -118,7 +134,7 @@ std::vector<double> fractionOf(const fem::Model& model) {
   return {};
 }
 
-std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const SolidMaterial& material,
+std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const Solid& solid,
                                    const std::vector<std::string>& contents) {
   const auto has = [&](const char* word) {
     return std::find(contents.begin(), contents.end(), word) != contents.end();
@@ -135,7 +151,7 @@ std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements
     fields.push_back({"pressure", std::move(stress.pressure)});
   }
   if (has("history"))
-    for (MeshField& field : cellHistory(model, elements, material)) fields.push_back(std::move(field));
+    for (MeshField& field : cellHistory(model, elements, solid)) fields.push_back(std::move(field));
   if (has("weights"))
     if (std::vector<double> fraction = fractionOf(model); !fraction.empty())
       fields.push_back({"solid_weight", std::move(fraction), 1, false});
@@ -149,7 +165,7 @@ std::vector<std::string> notesOnSetNames(const Built& built, const Scene& scene)
   for (std::size_t s = 0; s < built.meshes.size(); ++s) {
     const fem::SolidMesh& mesh = built.meshes[s];
     const coupling::SolidSide& side = built.run->solid(s);
-    for (const MeshField& field : solidFields(*side.model, mesh.elementCount(), scene.solids[s].material, contents))
+    for (const MeshField& field : solidFields(*side.model, mesh.elementCount(), scene.solids[s], contents))
       if (field.perCell ? mesh.elementSets.contains(field.name) : mesh.nodeSets.contains(field.name))
         notes.push_back("In frames of \"" + side.name + "\" the " + (field.perCell ? "element" : "node") + " set \"" +
                         field.name + "\" is \"" + field.name + " (set)\", since a field has its name.");

@@ -31,14 +31,14 @@ struct MeshField {
 /// What the material of a solid remembers, element by element: means of its points by their reference volumes.
 /// "plastic_strain" (accumulated, √⅔ times its rate's norm) and "plastic_volume" (det Fₚ) of laws that flow; "history",
 /// all numbers, of others that remember something.
-std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const SolidMaterial& material);
+std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const Solid& solid);
 
 /// Fraction of the solid per node, 1 − w in an overlap, interpolated in the elements; empty if all is the solid's.
 std::vector<double> fractionOf(const fem::Model& model);
 
 /// What frames of a solid show, by the words of `output.contents`: displacement (m), velocity (m/s), stress, history,
 /// weights.
-std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const SolidMaterial& material,
+std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const Solid& solid,
                                    const std::vector<std::string>& contents);
 
 /// Of a started run whose frames show solids: what says that a set has another name in them, as a field has its own.

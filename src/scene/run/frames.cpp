@@ -14,7 +14,7 @@ namespace dovetail::scene {
 
 struct Frames::Impl {
   std::vector<std::string> contents;
-  std::vector<SolidMaterial> materials;
+  std::vector<Solid> files;
   io::KeyValues provenance;
   std::vector<double> times;
   std::vector<io::VtuSeries> grains{}, contacts{}, bonds{};  // one, or none
@@ -73,7 +73,7 @@ void Frames::Impl::addGrains(const dem::Particles& particles, double time) {
 void Frames::Impl::addSolid(std::size_t s, const Built& built, double time) {
   const fem::Model& model = *built.run->solid(s).model;
   const fem::SolidMesh& mesh = built.meshes[s];
-  const std::vector<MeshField> values = solidFields(model, mesh.elementCount(), materials[s], contents);
+  const std::vector<MeshField> values = solidFields(model, mesh.elementCount(), files[s], contents);
   solid_io::VtuFields fields{.time = time};
   for (const MeshField& field : values)
     (field.perCell ? fields.perCell : fields.perPoint).push_back({field.name, field.values, field.components});
@@ -84,7 +84,7 @@ Frames::Frames(const Built& built, const Scene& scene, const std::filesystem::pa
                const io::KeyValues& provenance, const std::vector<double>& times)
     : impl_(std::make_unique<Impl>(Impl{scene.output.contents, {}, provenance, times})) {
   requireFrames(scene.output);
-  for (const Solid& solid : scene.solids) impl_->materials.push_back(solid.material);
+  impl_->files = scene.solids;
   const auto add = [&](std::vector<io::VtuSeries>& to, const std::string& name, io::FrameFile file) {
     to.emplace_back(folder, name, provenance, times, file);
   };

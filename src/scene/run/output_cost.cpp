@@ -5,6 +5,7 @@
 #include <numbers>
 #include <ostream>
 
+#include "build/parts.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
@@ -34,7 +35,10 @@ std::int64_t timesWritten(const Plan& plan, const Scene& scene, std::int64_t eve
   if (every == 0) return 0;
   std::int64_t count = 1;
   for (std::size_t k = 0; k < plan.stages.size(); ++k)
-    count += std::holds_alternative<Relax>(scene.stages[k].kind) ? 1 : (plan.stages[k] + every - 1) / every;
+    if (const auto* const statics = std::get_if<Statics>(&scene.stages[k].kind))
+      count += statics->time ? plan.stages[k] : 1;
+    else if (!std::holds_alternative<FindModes>(scene.stages[k].kind))
+      count += std::holds_alternative<Relax>(scene.stages[k].kind) ? 1 : (plan.stages[k] + every - 1) / every;
   return count;
 }
 
@@ -136,8 +140,7 @@ void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
   const bool anyGrains = grains.particles.size() > 0 || !scene.insertions.empty();
   const auto isOverlap = [](const Coupling& one) { return std::holds_alternative<Overlap>(one.kind); };
   const auto flows = [](const Solid& one) {
-    return std::holds_alternative<J2Plastic>(one.material.law) ||
-           std::holds_alternative<DruckerPrager>(one.material.law);
+    return std::ranges::any_of(materialsOf(one), [](const SolidMaterial* material) { return yields(*material); });
   };
   for (const Part& part :
        {Part{"weights", "overlap", std::ranges::any_of(scene.couplings, isOverlap)},

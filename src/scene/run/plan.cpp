@@ -39,6 +39,10 @@ Plan planOf(const Built& built, const Scene& scene) {
   for (const Stage& stage : scene.stages)
     if (const auto* const relax = std::get_if<Relax>(&stage.kind))
       plan.stages.push_back(relax->macroSteps);
+    else if (const auto* const statics = std::get_if<Statics>(&stage.kind))
+      plan.stages.push_back(statics->loadSteps);
+    else if (std::holds_alternative<FindModes>(stage.kind))
+      plan.stages.push_back(0);
     else
       plan.stages.push_back(macroStepsIn(std::get<RunFor>(stage.kind).time, macroStep, stage.where));
   const auto interval = [&](const std::optional<double>& seconds) {

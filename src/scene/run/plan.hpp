@@ -9,7 +9,7 @@
 namespace dovetail::scene {
 
 struct Plan {
-  std::vector<std::int64_t> stages;                      ///< macro steps; of stages that relax, at most
+  std::vector<std::int64_t> stages;                      ///< macro steps, of stages that relax at most; load steps
   std::int64_t series = 0, frames = 0, checkpoints = 0;  ///< macro steps between two; 0: none
 };
 

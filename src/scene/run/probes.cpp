@@ -127,12 +127,23 @@ Probes::Values Probes::find(const Built& built, const std::string& name, const S
     throw InputError("neither supports nor ties act on the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
                      "give the solid a support there, or leave the probe out");
   nameVector(name + "_", "N");
+  nameVector(name + "_m", "Nm");
   return [solid, set, supports = by.supports, known = reactions_](const Built& now, std::vector<double>& row) {
     if (!known->contains(solid)) known->emplace(solid, now.run->reactions(solid));
     const coupling::Reactions& all = known->at(solid);
-    Vec3 sum;
-    for (const int node : set) sum += (supports ? all.supports : all.ties)[static_cast<std::size_t>(node)];
+    const fem::Nodes& nodes = std::as_const(*now.run).solid(solid).nodes();
+    Vec3 sum, moment, centre;
+    const auto placeOf = [&](std::size_t n) { return nodes.X[n] + nodes.u[n]; };
+    for (const int node : set)
+      centre += 1.0 / static_cast<double>(set.size()) * placeOf(static_cast<std::size_t>(node));
+    for (const int node : set) {
+      const auto n = static_cast<std::size_t>(node);
+      const Vec3& force = (supports ? all.supports : all.ties)[n];
+      sum += force;
+      moment += cross(placeOf(n) - centre, force);
+    }
     append(row, sum);
+    append(row, moment);
   };
 }
 

@@ -24,6 +24,8 @@ bool isNameOfFrames(const std::string& name) {
 
 std::vector<std::string> fileNames(const Scene& scene, bool goesOn) {
   std::vector<std::string> names{"scene.json", "series.csv", "summary.txt", "summary.json", "times.csv"};
+  for (const Stage& stage : scene.stages)
+    if (std::holds_alternative<FindModes>(stage.kind) && names.back() != modesFile) names.push_back(modesFile);
   if (!goesOn) names.insert(names.end(), {"checkpoint.state", "checkpoint.previous.state"});
   if (scene.output.hdf5) names.push_back("series.h5");
   return names;
@@ -36,8 +38,8 @@ void removeEnd(const fs::path& folder) {
 
 void removeEarlierRun(const fs::path& folder) {
   removeEnd(folder);
-  removeIfOurs(
-      folder, {"checkpoint.state", "checkpoint.previous.state", "checkpoint.damaged.state", "times.csv", "series.csv"});
+  removeIfOurs(folder, {"checkpoint.state", "checkpoint.previous.state", "checkpoint.damaged.state", "times.csv",
+                        "series.csv", modesFile});
   std::vector<fs::path> listed;
   for (const auto& entry : fs::directory_iterator(folder))
     if (const fs::path& path = entry.path(); path.extension() == ".pvd" || path.extension() == ".vtkhdf")

@@ -9,6 +9,8 @@
 
 namespace dovetail::scene {
 
+inline constexpr const char* modesFile = "modes.csv";  ///< of stages that find modes
+
 /// What a run will write, frames apart. @param goesOn  states are there already, whole or damaged
 std::vector<std::string> fileNames(const Scene& scene, bool goesOn);
 /// Files that a new run may not write, or only at its end, with all frames.

@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 
 namespace dovetail::scene {
@@ -39,8 +40,8 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels, con
   return names;
 }
 
-/// Channels of the run at its start, and those that it may come to have.
-std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
+/// Channels of the run at its start, and those that it may come to have. @param loads  there are load steps
+std::vector<std::string> channelsOf(coupling::CoupledRun& run, bool loads) {
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -50,8 +51,14 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run) {
        {"dashpots", "friction", "rolling", "left", "entered (minus)", "work of walls and drives (minus)"})
     add(std::string("particles: ") + later);
   if (!run.grains.terms.all<dem::BondTerm>().empty()) add("particles: fracture");
-  for (std::size_t s = 0; s < run.solids(); ++s)
-    for (const char* const later : {": supports", ": dissipated by elements"}) add(run.solid(s).name + later);
+  for (std::size_t s = 0; s < run.solids(); ++s) {
+    add(run.solid(s).name + ": supports");
+    for (const auto& term : run.solid(s).model->terms)
+      if (dynamic_cast<const fem::Solid*>(term.get())) add(run.solid(s).name + ": dissipated by " + term->name());
+    if (!loads) continue;
+    for (const char* const later : {"load steps", "work of loads in load steps", "dissipated in load steps"})
+      add(run.solid(s).name + ": " + later);
+  }
   add("kinetic damping");
   return names;
 }
@@ -84,7 +91,7 @@ std::vector<const dem::Insertion*> insertionsOf(const Built& built) {
 }
 
 Series::Series(Built& built, const std::vector<Probe>& probes, SeriesFiles files)
-    : channels_(channelsOf(*built.run)),
+    : channels_(channelsOf(*built.run, files.loadSteps)),
       probes_(built, probes),
       table_(columnsOf(channels_, built, probes_.names())),
       files_(std::move(files)),

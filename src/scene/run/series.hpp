@@ -27,6 +27,7 @@ struct SeriesFiles {
   io::KeyValues provenance;
   bool hdf5 = false;
   std::int64_t every = 1;  ///< macro steps between two rows
+  bool loadSteps = false;  ///< a stage takes some
 };
 
 /// The limit of the step takes the eigenvalues of all elements: rows closer than 2000 macro steps repeat the last one

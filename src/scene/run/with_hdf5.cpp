@@ -23,8 +23,7 @@ void writeSolidsHdf5(const std::filesystem::path& folder, const Built& built, co
   for (std::size_t s = 0; s < built.meshes.size(); ++s) {
     const fem::SolidMesh& mesh = built.meshes[s];
     const coupling::SolidSide& side = built.run->solid(s);
-    const std::vector<MeshField> values =
-        solidFields(*side.model, mesh.elementCount(), scene.solids[s].material, contents);
+    const std::vector<MeshField> values = solidFields(*side.model, mesh.elementCount(), scene.solids[s], contents);
     io::HdfGrid grid{.points = mesh.X, .connectivity = {}, .offsets = {0}, .types = {}, .fields = {}};
     for (const fem::ElementGroup& group : mesh.groups) {
       grid.connectivity.insert(grid.connectivity.end(), group.node.begin(), group.node.end());

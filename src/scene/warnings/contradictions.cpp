@@ -68,6 +68,7 @@ void lookAtHeldFaces(const Built& built, const Scene& scene, std::size_t s, cons
   };
   for (std::size_t k = 0; k < scene.solids[s].loads.size(); ++k) {
     const std::string& set = scene.solids[s].loads[k].on;
+    if (std::holds_alternative<NodalLoad>(scene.solids[s].loads[k].kind)) continue;
     if (std::ranges::all_of(fem::faceSet(built.meshes[s], set), [&](const fem::Face& face) {
           return std::all_of(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape), isHeld);
         }))
@@ -105,6 +106,7 @@ void lookForContradictions(const Built& built, const Scene& scene, Lines& lines)
     const std::string of = "solids." + std::to_string(s);
     lookAtItems(of + ".loads", scene.solids[s].loads, lines);
     lookAtItems(of + ".supports", scene.solids[s].supports, lines);
+    lookAtItems(of + ".planes", scene.solids[s].planes, lines);
     lookAtSupports(of + ".supports", scene.solids[s].supports, lines);
     lookAtLoads(of + ".loads", scene.solids[s].loads, lines);
     lookAtHeldFaces(built, scene, s, of + ".loads", lines);

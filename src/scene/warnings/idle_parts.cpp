@@ -56,6 +56,7 @@ void lookAtSpeeds(const std::string& list, const std::vector<Moved>& all, double
   constexpr int samples = 50;
   const double piece = durationOf(scene) / samples;
   for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].displacement && usesPlace(*all[k].displacement)) continue;
     const auto place = pathOf(all[k].velocity, all[k].displacement, scene).displacement;
     double fastest = 0.0, before = 0.0;
     for (int n = 0; n < samples; ++n) {
@@ -81,7 +82,9 @@ bool isBefore(const Extent& grains, const geometry::Facet& facet, const std::vec
 }
 
 bool moves(const Solid& solid) {
-  const auto moved = [](const Support& one) { return !isConstant(one.displacement.value_or(one.velocity)); };
+  const auto moved = [](const Support& one) {
+    return one.turn || !isConstant(one.displacement.value_or(one.velocity));
+  };
   return norm(solid.velocity) > 0.0 || solid.state || std::ranges::any_of(solid.supports, moved);
 }
 
@@ -304,8 +307,10 @@ void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines) {
   constexpr double machine = 30.0, lid = 90.0;  // lids are thrown open; m/s
   lookAtSpeeds("walls", scene.walls, lid, scene, lines);
   lookAtSpeeds("drives", scene.drives, machine, scene, lines);
-  for (std::size_t s = 0; s < scene.solids.size(); ++s)
+  for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     lookAtSpeeds(item("solids", s) + ".supports", scene.solids[s].supports, machine, scene, lines);
+    lookAtSpeeds(item("solids", s) + ".planes", scene.solids[s].planes, machine, scene, lines);
+  }
   lookAtFaces(built, scene, lines);
   lookAtOptions(scene, lines);
   lookAtClumps(scene, lines);

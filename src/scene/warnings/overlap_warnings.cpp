@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "build/parts.hpp"
 #include "dovetail/arlequin/arlequin_coupling.hpp"
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/arlequin/coupling_options.hpp"
@@ -35,6 +36,7 @@ struct Shared {
   double mass = 0.0, volumeOfGrains = 0.0, diameter = 0.0;  ///< kg, m³, m (mean)
   double volume = 0.0, elementSize = 0.0;                   ///< m³; m, mean along the axis
   std::size_t grains = 0, elements = 0;
+  std::size_t first = 0;  ///< number of one of the elements
 };
 
 void addElements(Shared& shared, const fem::SolidMesh& mesh, int axis, double lower, double upper) {
@@ -50,7 +52,7 @@ void addElements(Shared& shared, const fem::SolidMesh& mesh, int axis, double lo
         least = std::min(least, place), most = std::max(most, place);
       }
       if (least < lower - margin || most > upper + margin) continue;
-      ++shared.elements;
+      if (shared.elements++ == 0) shared.first = number;
       shared.volume += quality.element[number].volume;
       shared.elementSize += most - least;
     }
@@ -107,9 +109,9 @@ void lookBeyondBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const 
                     "xyz"[overlap.axis] + ", where the solid has no weight: swap the two borders, or check the axis.");
 }
 
-void lookAtPenalty(const Overlap& overlap, const Solid& solid, double elementSize, const std::string& name,
+void lookAtPenalty(const Overlap& overlap, const SolidMaterial& material, double elementSize, const std::string& name,
                    Lines& lines) {
-  const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, solid.material.law);
+  const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, material.law);
   const double advised = arlequin::automaticPenalty(modulus, elementSize);
   if (overlap.penalty.word.empty() && overlap.penalty.number < 1e-4 * advised)
     lines.push_back("The penalty of " + name + " is " + rounded(overlap.penalty.number) +
@@ -133,13 +135,14 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
                     " there is no whole element, or no grain: move them to where there are both.");
     return;
   }
+  const SolidMaterial& material = *materialsOf(file)[materialByElement(file, built.meshes[solid])[shared.first]];
   const double thickness = std::abs(overlap.solidBorder - overlap.particleBorder);
   if (thickness < 1.99 * shared.elementSize || thickness < 2.9 * shared.diameter)
     lines.push_back(name + " is " + rounded(thickness) + " m thick, with elements of " + rounded(shared.elementSize) +
                     " m and grains of " + rounded(shared.diameter) +
                     " m: make it at least two elements and three grains thick.");
   if (overlap.constraint == static_cast<int>(arlequin::ConstraintKind::penalty))
-    lookAtPenalty(overlap, file, shared.elementSize, name, lines);
+    lookAtPenalty(overlap, material, shared.elementSize, name, lines);
   if (overlap.kernel > thickness)
     lines.push_back("The kernel of " + name + " is wider than the overlap is thick: take a width below " +
                     rounded(thickness) + " m.");
@@ -147,13 +150,13 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
     lines.push_back(std::to_string(voids) + " elements within " + name +
                     " hold no grain: take larger elements, or smaller grains.");
   const double bulk = shared.mass / shared.volume;
-  if (std::abs(bulk / file.material.density - 1.0) > 0.15)
+  if (std::abs(bulk / material.density - 1.0) > 0.15)
     lines.push_back("In " + name + " grains have " + rounded(bulk) + " kg/m3 and the solid " +
-                    rounded(file.material.density) + ": give the solid the density " + rounded(bulk) + ".");
+                    rounded(material.density) + ": give the solid the density " + rounded(bulk) + ".");
   const auto* const linear = scene.contact ? std::get_if<LinearContact>(&scene.contact->normal) : nullptr;
   if (!linear) return;
   const double grains = bulkModulusOf(*linear, shared.diameter, shared.volumeOfGrains / shared.volume);
-  const double ratio = bulkModulusOf(file.material) / grains;
+  const double ratio = bulkModulusOf(material) / grains;
   if (ratio > 4.0 || ratio < 0.25)
     lines.push_back("In " + name + " the bulk modulus of the solid is " + rounded(ratio) +
                     " times that of the grains, about " + rounded(grains) +

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "build/extent.hpp"
+#include "build/parts.hpp"
 #include "build/time_functions.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -37,8 +38,12 @@ void lookAtWaves(const std::string& whose, double modulus, double density, Lines
 /// Elements of the first order hold their volume at every point, and so hardly deform at all.
 void lookAtLocking(const Built& built, const Solid& solid, std::size_t number, Lines& lines) {
   constexpr double incompressible = 0.48;
-  const double nu = std::visit([](const auto& law) { return poissonOf(law); }, solid.material.law);
-  const bool flows = std::holds_alternative<J2Plastic>(solid.material.law);
+  double nu = 0.0;
+  bool flows = false;
+  for (const SolidMaterial* const material : materialsOf(solid)) {
+    nu = std::max(nu, std::visit([](const auto& law) { return poissonOf(law); }, material->law));
+    flows = flows || std::holds_alternative<J2Plastic>(material->law);
+  }
   if (nu < incompressible && !flows) return;
   const std::string why =
       flows ? " flows at constant volume (J2)" : " hardly changes its volume (poisson_ratio " + formatNumber(nu) + ")";
@@ -55,16 +60,16 @@ void lookAtLocking(const Built& built, const Solid& solid, std::size_t number, L
 
 // ---- strength
 
-void lookAtStrength(const std::string& key, const Solid& solid, Lines& lines) {
+void lookAtStrength(const std::string& key, const Solid& solid, const SolidMaterial& material, Lines& lines) {
   const auto tell = [&](const char* name, double strength, double modulus) {
     if (strength > modulus)
       lines.push_back(key + "." + name + " is " + rounded(strength) + " Pa, above youngs_modulus, " + rounded(modulus) +
                       " Pa, so that " + quoted(solid.name) +
                       " hardly yields: check the units of both, or take an elastic law.");
   };
-  if (const auto* const law = std::get_if<J2Plastic>(&solid.material.law))
+  if (const auto* const law = std::get_if<J2Plastic>(&material.law))
     tell("yield_stress", law->yieldStress, law->youngsModulus), tell("hardening", law->hardening, law->youngsModulus);
-  if (const auto* const law = std::get_if<DruckerPrager>(&solid.material.law))
+  if (const auto* const law = std::get_if<DruckerPrager>(&material.law))
     tell("cohesion", law->cohesion, law->youngsModulus);
 }
 
@@ -79,7 +84,7 @@ void lookAtPressures(const std::string& of, const Solid& solid, double modulus, 
   };
   for (std::size_t k = 0; k < solid.loads.size(); ++k)
     if (const auto* const load = std::get_if<PressureLoad>(&solid.loads[k].kind);
-        load && most(load->pressure) > modulus)
+        load && !usesPlace(load->pressure) && most(load->pressure) > modulus)
       lines.push_back(of + ".loads." + std::to_string(k) + ".pressure reaches " + rounded(most(load->pressure)) +
                       " Pa, above youngs_modulus of " + quoted(solid.name) + ", " + rounded(modulus) +
                       " Pa: check the units of both.");
@@ -245,12 +250,19 @@ void lookAtStep(const Built& built, const Scene& scene, Lines& lines) {
 
 void lookAtRelations(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
-    const SolidMaterial& material = scene.solids[s].material;
-    const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, material.law);
-    lookAtWaves(quoted(scene.solids[s].name), modulus, material.density, lines);
+    const Solid& solid = scene.solids[s];
     const std::string of = "solids." + std::to_string(s);
-    lookAtStrength(of + ".material", scene.solids[s], lines);
-    lookAtPressures(of, scene.solids[s], modulus, scene, lines);
+    double largest = 0.0;
+    const std::vector<const SolidMaterial*> materials = materialsOf(solid);
+    for (std::size_t m = 0; m < materials.size(); ++m) {
+      const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, materials[m]->law);
+      const std::string region = m > 0 ? " (" + solid.regions[m - 1].elements + ")" : "";
+      lookAtWaves(quoted(solid.name) + region, modulus, materials[m]->density, lines);
+      lookAtStrength(of + (m > 0 ? ".regions." + std::to_string(m - 1) : "") + ".material", solid, *materials[m],
+                     lines);
+      largest = std::max(largest, modulus);
+    }
+    lookAtPressures(of, solid, largest, scene, lines);
     lookAtAspects(of, scene.solids[s], built.meshes[s], lines);
     lookAtLocking(built, scene.solids[s], s, lines);
   }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "build/parts.hpp"
 #include "build/time_functions.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/elements/solid.hpp"
@@ -56,6 +57,7 @@ bool isAcross(const TimeVector& motion, const Vec3& normal) {
 }
 bool isAcross(const Load& load, const fem::SolidMesh& mesh, const Vec3& normal) {
   const auto* const traction = std::get_if<TractionLoad>(&load.kind);
+  if (const auto* const force = std::get_if<NodalLoad>(&load.kind)) return isAcross(force->force, normal);
   return (traction && isAcross(traction->traction, normal)) ||
          std::ranges::any_of(fem::faceSet(mesh, load.on), [&](const fem::Face& face) {
            const auto at = [&](std::size_t k) { return mesh.X[static_cast<std::size_t>(face.node[k])]; };
@@ -68,14 +70,14 @@ bool isAcross(const Load& load, const fem::SolidMesh& mesh, const Vec3& normal) 
 bool isOnlyStretched(const Scene& scene, const Solid& solid, const fem::SolidMesh& mesh, const Vec3& normal) {
   const auto couples = [&](const Coupling& one) { return one.solid == solid.name; };
   const auto moves = [](const Support& one) {
-    return one.displacement || !isConstant(one.velocity) || norm(constantOf(one.velocity)) > 0.0;
+    return one.displacement || one.turn || !isConstant(one.velocity) || norm(constantOf(one.velocity)) > 0.0;
   };
   if (solid.loads.empty() && std::ranges::none_of(solid.supports, moves)) return false;
   if (std::ranges::any_of(scene.couplings, couples) || isAcross(solid.velocity, normal)) return false;
   if (solid.gravity && isAcross(scene.gravity, normal)) return false;
   return std::ranges::none_of(solid.loads, [&](const Load& one) { return isAcross(one, mesh, normal); }) &&
-         std::ranges::none_of(solid.supports, [&](const Support& one) {
-           return isAcross(one.displacement.value_or(one.velocity), normal);
+         solid.planes.empty() && std::ranges::none_of(solid.supports, [&](const Support& one) {
+           return one.turn || isAcross(one.displacement.value_or(one.velocity), normal);
          });
 }
 
@@ -103,6 +105,12 @@ double poissonOf(const SolidMaterial& material) {
         return 0.0;
       },
       material.law);
+}
+
+double largestPoissonOf(const Solid& solid) {
+  double largest = -1.0;
+  for (const SolidMaterial* const material : materialsOf(solid)) largest = std::max(largest, poissonOf(*material));
+  return largest;
 }
 
 std::string layersText(double layers) {
@@ -139,7 +147,7 @@ void lookAtThickness(const Built& built, const Scene& scene, std::size_t number,
     if (place.length < slender * place.thickness || isHeld(side, masters, place.face, place.normal) ||
         isHeld(side, masters, place.opposite, place.normal) || isOnlyStretched(scene, solid, mesh, place.normal))
       continue;
-    const double stiffness = stiffnessOf(place.shape, solid.formulation, place, poissonOf(solid.material));
+    const double stiffness = stiffnessOf(place.shape, solid.formulation, place, largestPoissonOf(solid));
     if (stiffness > 1.0 - tolerated && stiffness < 1.0 + tolerated) continue;
     bad += place.area;
     found.emplace_back(stiffness, place);

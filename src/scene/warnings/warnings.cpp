@@ -12,6 +12,7 @@
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/surface/skin.hpp"
 #include "impacts.hpp"
+#include "keys/values.hpp"
 #include "plausible.hpp"
 #include "run/output_cost.hpp"
 
@@ -124,6 +125,13 @@ void lookAtSets(const Scene& scene, const Solid& solid, Lines& lines) {
   for (const Support& one : solid.supports) used.insert(one.on);
   for (const Load& one : solid.loads) used.insert(one.on);
   for (const MeshTie& one : solid.ties) used.insert({one.nodes, one.faces});
+  for (const MaterialRegion& one : solid.regions) used.insert(one.elements);
+  for (const SolidPlane& one : solid.planes) used.insert(one.on);
+  for (const NamedSet& one : solid.sets)
+    if (const auto* const common = std::get_if<CommonPart>(&one.place)) used.insert({common->of, common->with});
+  for (const Probe& probe : scene.output.probes)
+    if (const auto* const support = std::get_if<SupportProbe>(&probe.of); support && support->solid == solid.name)
+      used.insert(support->on);
   for (const Coupling& one : scene.couplings)
     if (const auto* const contact = std::get_if<SurfaceContact>(&one.kind); contact && one.solid == solid.name)
       used.insert(contact->on);
@@ -162,6 +170,7 @@ void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t numbe
     touches = true;
   }
   const double g = norm(scene.gravity);
+  if (!solid.planes.empty()) return;
   if (solid.supports.empty() && g > 0.0 && solid.gravity)
     return lines.push_back(quoted(solid.name) +
                            " has no supports and falls: hold some of its nodes, or leave gravity out.");
@@ -196,7 +205,9 @@ void lookAtStages(const Scene& scene, Lines& lines) {
   };
   bool any = std::any_of(scene.walls.begin(), scene.walls.end(), moves) ||
              std::any_of(scene.drives.begin(), scene.drives.end(), moves);
-  for (const Solid& solid : scene.solids) any = any || std::any_of(solid.supports.begin(), solid.supports.end(), moves);
+  for (const Solid& solid : scene.solids)
+    any = any || std::any_of(solid.supports.begin(), solid.supports.end(), moves) ||
+          std::any_of(solid.planes.begin(), solid.planes.end(), moves);
   if (!scene.insertions.empty())
     lines.push_back(
         "A stage relaxes while grains are inserted, and may never come to rest: run for a time instead, and relax in "
@@ -205,6 +216,29 @@ void lookAtStages(const Scene& scene, Lines& lines) {
     lines.push_back(
         "A stage relaxes while walls, drives or supports move, and may never come to rest: run for a time instead, or "
         "let them start later in a run.");
+}
+
+/// Loads that wait for a time which does not pass.
+void lookAtLoadSteps(const Scene& scene, Lines& lines) {
+  const auto stands = [](const Stage& stage) {
+    const auto* const statics = std::get_if<Statics>(&stage.kind);
+    return statics && !statics->time;
+  };
+  const auto stage = std::ranges::find_if(scene.stages, stands);
+  if (stage == scene.stages.end()) return;
+  const auto grows = [](const TimeValue& value) { return wordsIn(value.expression).contains("t"); };
+  const auto changes = [&](const Load& load) {
+    if (const auto* const pressure = std::get_if<PressureLoad>(&load.kind)) return grows(pressure->pressure);
+    const auto* const force = std::get_if<NodalLoad>(&load.kind);
+    return std::ranges::any_of(force ? force->force : std::get<TractionLoad>(load.kind).traction, grows);
+  };
+  for (std::size_t s = 0; s < scene.solids.size(); ++s)
+    for (std::size_t k = 0; k < scene.solids[s].loads.size(); ++k)
+      if (changes(scene.solids[s].loads[k]))
+        lines.push_back("solids." + std::to_string(s) + ".loads." + std::to_string(k) +
+                        " changes with time, and in stages." + std::to_string(stage - scene.stages.begin()) +
+                        " no time passes, so that it acts as at that instant: give the stage a \"time\" if it is to "
+                        "grow.");
 }
 
 }  // namespace
@@ -245,6 +279,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene, bool s
   lookForBodiesWithin(built, scene, lines);
   lookAtNames(scene, lines);
   lookAtStages(scene, lines);
+  lookAtLoadSteps(scene, lines);
   return onePerKind(lines);
 }
 

@@ -51,6 +51,39 @@ TEST(Loads, PressureOnTheWholeSkinHasNoResultant) {
   }
 }
 
+/// A field that is the same everywhere is the number; its tangent is the derivative anywhere; what it does on flat
+/// reference faces is its integral there.
+TEST(Loads, PressuresMayDependOnThePlace) {
+  const auto field = [](const Vec3& X, double t) { return 3.0 + X.x - 2.0 * X.y * X.z + t; };
+  for (const ElementShape shape : spatialCellShapes) {
+    const SolidMesh mesh = box(shape);
+    Model model = randomState(mesh, 5, 0.05);
+    const std::vector<Face>& faces = faceSet(mesh, "skin");
+    const auto follows = followingPressure(mesh, faces, field);
+    EXPECT_FALSE(follows->hasEnergy() || follows->isSymmetric());
+    expectTangents(*follows, model.nodes, now, 1e-7);
+    const auto same = [](const Vec3&, double) { return 7.0; };
+    const auto expectSame = [&](Term& a, Term& b) {
+      const std::vector<Vec3> f = forcesOf(a, model.nodes, now), g = forcesOf(b, model.nodes, now);
+      for (std::size_t n = 0; n < f.size(); ++n) EXPECT_LT(norm(f[n] - g[n]), 1e-12) << name(shape);
+    };
+    expectSame(*followingPressure(mesh, faces, same), *followingPressure(mesh, faces, 7.0));
+    expectSame(*deadPressure(mesh, faces, same), *deadPressure(mesh, faces, 7.0));
+    for (Vec3& u : model.nodes.u) u = {};
+    expectSame(*follows, *deadPressure(mesh, faces, field));
+    // ∮ −p n dA = −∫ ∇p dV
+    double volume = 1.0;
+    Vec3 centre;
+    for (int c = 0; c < 3; ++c) {
+      const auto [least, most] = std::ranges::minmax(mesh.X, {}, [c](const Vec3& X) { return X[c]; });
+      volume *= most[c] - least[c];
+      centre[c] = 0.5 * (most[c] + least[c]);
+    }
+    const Vec3 force = resultant(model.nodes, forcesOf(*follows, model.nodes, now)).first;
+    EXPECT_LT(norm(force - volume * Vec3{-1.0, 2.0 * centre.z, 2.0 * centre.y}), 1e-12) << name(shape);
+  }
+}
+
 TEST(Loads, PressureOnOneSideIsPressureTimesArea) {
   const double area = 0.9 * 1.1;
   for (const ElementShape shape : spatialCellShapes) {

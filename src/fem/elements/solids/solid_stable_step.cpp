@@ -80,7 +80,8 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
     }
     if (std::isnan(own)) break;
   }
-  return {{2.0 / std::sqrt(largest), {}}, cells_.number[worst], name()};
+  const double h = 2.0 / std::sqrt(largest), tau = material() ? material()->dampingTime() : 0.0;
+  return {{tau > 0.0 ? h * h / (std::hypot(tau, h) + tau) : h, {}}, cells_.number[worst], name()};
 }
 
 }  // namespace dovetail::fem::detail

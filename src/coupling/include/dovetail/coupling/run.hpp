@@ -117,6 +117,15 @@ public:
   /// @throws InputError if macroSteps is negative; NumericalError naming the particle, node or element that breaks down
   void advance(std::int64_t macroSteps = 1, bool withEnergies = true);
 
+  /// Load step number `step` of `steps` of all solids, between macro steps: from equilibrium to equilibrium, with what
+  /// was out of balance before the first one held back in proportion to the load steps to come, while loads and
+  /// prescribed motion go on by `time`, s, which may be 0. Solids are at rest after it; velocities before the first one
+  /// are booked as "kinetic damping". Particles do not take part: they may touch no solid, before or after, and stand
+  /// still if time passes. Ledger: work of loads, of supports and of what is held back, by trapezoidal sums.
+  /// @throws InputError for a connector that constrains; if particles touch a solid; for time that passes with
+  ///         particles. NumericalError naming solid and load step where there is no equilibrium
+  void loadStep(std::int64_t step, std::int64_t steps, double time);
+
   /// Sets all velocities to zero, between macro steps; the energy that this takes is booked as "kinetic damping".
   void stop();
   /// Switches numerical damping of implicit solids on or off, from the next macro step: it damps oscillations with

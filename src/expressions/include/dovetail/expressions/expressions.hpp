@@ -19,7 +19,8 @@ std::function<double(double)> timeFunction(const std::string& expression,
                                            const std::map<std::string, double>& constants = {});
 
 /// The same of reference position x, y, z (m) and t (s).
-std::function<double(const Vec3&, double)> fieldFunction(const std::string& expression);
+std::function<double(const Vec3&, double)> fieldFunction(const std::string& expression,
+                                                         const std::map<std::string, double>& constants = {});
 /// Three of them, one per component.
 std::function<Vec3(const Vec3&, double)> vectorField(const std::array<std::string, 3>& expressions);
 

@@ -31,7 +31,8 @@ struct NumberOrWord {
   friend bool operator==(const NumberOrWord&, const NumberOrWord&) = default;
 };
 
-/// A number, or a function of time: an expression of t (s) and parameters.
+/// A number, or a function of time: an expression of t (s), where a key says so of the place x, y, z (m) too, and
+/// parameters.
 struct TimeValue {
   double number = 0.0;
   std::string expression;  ///< empty: the number counts

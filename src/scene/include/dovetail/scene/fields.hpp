@@ -29,6 +29,7 @@ constexpr Limits between(double least, double most, bool openBelow = false, bool
 struct Key {
   const char* name;
   const char* help;
+  bool ofPlace = false;  ///< of functions: they may use the place too
 };
 using Words = std::span<const char* const>;
 

@@ -25,8 +25,17 @@ struct Relax {
 struct RunFor {
   double time = required;  ///< s
 };
+/// Equilibria of the solids; grains stand still.
+struct Statics {
+  std::int64_t loadSteps = 10;
+  std::optional<double> time;  ///< s, that passes; not given: none
+};
+/// Free vibrations of the solids as they are then, without grains.
+struct FindModes {
+  int count = 6;
+};
 struct Stage {
-  std::variant<Relax, RunFor> kind;
+  std::variant<Relax, RunFor, Statics, FindModes> kind;
   std::string where;
 };
 struct Steps {
@@ -54,7 +63,7 @@ struct WallProbe {
 struct DriveProbe {
   int drive = 0;  ///< item of `drives`
 };
-/// Force of a support on its solid.
+/// Force of a support on its solid, and its moment about the mean place of the nodes.
 struct SupportProbe {
   std::string solid, on;  ///< node set
 };

@@ -27,8 +27,14 @@ struct StVenantKirchhoff {
 struct NeoHookean {
   double youngsModulus = required, poissonRatio = required;
 };
+/// A point of a yield curve.
+struct YieldPoint {
+  double plasticStrain = required, yieldStress = required;  ///< accumulated; Pa
+};
 struct J2Plastic {
   double youngsModulus = required, poissonRatio = required, yieldStress = required, hardening = 0.0;
+  std::vector<YieldPoint> hardeningCurve;         ///< in place of `hardening`, behind the initial yield stress
+  double kinematicModulus = 0.0, recovery = 0.0;  ///< Pa, 1: of the back stress, see fem::J2Plasticity
 };
 struct DruckerPrager {
   double youngsModulus = required, poissonRatio = required, cohesion = required;
@@ -45,12 +51,21 @@ struct DeformedMetric {
 struct SolidMaterial {
   std::variant<StVenantKirchhoff, NeoHookean, J2Plastic, DruckerPrager, AxialSprings, DeformedMetric> law;
   double density = required;  ///< kg/m³
+  double dampingTime = 0.0;   ///< viscosities over elastic moduli, s
+};
+/// Elements of another material.
+struct MaterialRegion {
+  std::string elements;  ///< element set
+  SolidMaterial material;
+  std::string where;
 };
 struct Support {
   std::string on;  ///< node set
   bool x = true, y = true, z = true;
   TimeVector velocity;                     ///< of the held components, m/s
-  std::optional<TimeVector> displacement;  ///< of the held components, m; in place of a velocity
+  std::optional<TimeVector> displacement;  ///< of the held components, m; in place of a velocity; may use the place
+  std::optional<Turn> turn;                ///< beside them
+  std::optional<Vec3> point;               ///< on its axis, m
   std::string where;
 };
 /// Normal to the faces.
@@ -62,9 +77,13 @@ struct PressureLoad {
 struct TractionLoad {
   TimeVector traction{TimeValue{required, ""}};  ///< Pa
 };
+/// In equal parts on the nodes.
+struct NodalLoad {
+  TimeVector force{TimeValue{required, ""}};  ///< N, in all
+};
 struct Load {
-  std::string on;  ///< face set
-  std::variant<PressureLoad, TractionLoad> kind;
+  std::string on;  ///< face set; of forces a node set
+  std::variant<PressureLoad, TractionLoad, NodalLoad> kind;
   std::string where;
 };
 /// Nodes tied to adjacent faces, where meshes do not match.
@@ -84,14 +103,39 @@ struct PlaceOnPlane {
 struct PlaceInSphere {
   Vec3 centre = requiredVector;  ///< m
   double radius = required;      ///< m
+  double innerRadius = 0.0;      ///< m
+};
+struct PlaceInCylinder {
+  Vec3 point = requiredVector, axis = requiredVector;  ///< m; of any length
+  double radius = required;                            ///< m
+  double innerRadius = 0.0;                            ///< m
+};
+/// Faces of the boundary that look in a direction.
+struct FacesTowards {
+  Vec3 direction = requiredVector;  ///< of any length
+  double angle = 0.25;              ///< of their normals to it, rad
+};
+/// What two sets have in common.
+struct CommonPart {
+  std::string of, with;
 };
 struct PlaceAtSide {
   std::string side = "x-";
 };
-/// Nodes, and faces of the boundary, in a place of the mesh.
+/// Nodes, elements, and faces of the boundary, in a place of the mesh.
 struct NamedSet {
   std::string name;
-  std::variant<PlaceAtSide, PlaceInBox, PlaceOnPlane, PlaceInSphere> place;
+  std::variant<PlaceAtSide, PlaceInBox, PlaceOnPlane, PlaceInSphere, PlaceInCylinder, FacesTowards, CommonPart> place;
+  std::string where;
+};
+/// A rigid plane that faces of the solid cannot pass.
+struct SolidPlane {
+  std::string on = "skin";                               ///< face set
+  Vec3 point = requiredVector, normal = requiredVector;  ///< m; of any length, towards the solid
+  TimeVector velocity;                                   ///< m/s
+  std::optional<TimeVector> displacement;                ///< m; in place of a velocity
+  NumberOrWord stiffness{0.0, "auto"};                   ///< pressure per penetration, Pa/m
+  double friction = 0.0;
   std::string where;
 };
 /// Displacements, velocities and plastic flow of the solid of that name in another run's checkpoint.
@@ -101,11 +145,13 @@ struct StateOfSolid {
 struct Solid {
   std::string name;
   std::variant<BoxMesh, MeshFile, TetrahedraMesh> mesh;
-  SolidMaterial material;
+  SolidMaterial material;  ///< of all elements but those of the regions
+  std::vector<MaterialRegion> regions;
   std::string formulation = "standard";
   bool gravity = true;
   bool implicitSteps = false;
   int linearSolver = 0;                ///< linalg::LinearMethod, of implicit steps
+  double massDamping = 0.0;            ///< force over mass and velocity, 1/s
   std::optional<double> massFraction;  ///< of the consistent mass; not given: 1 for implicit steps, else 0
   std::optional<StateOfSolid> state;   ///< initial state; not given: undeformed and at rest
   Vec3 velocity;                       ///< of all nodes at the start, m/s, added to that of the state
@@ -113,6 +159,7 @@ struct Solid {
   std::vector<Support> supports;
   std::vector<Load> loads;
   std::vector<MeshTie> ties;
+  std::vector<SolidPlane> planes;
   std::string where;
 };
 

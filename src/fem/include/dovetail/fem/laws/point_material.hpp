@@ -53,6 +53,8 @@ public:
   /// Whether the stress depends on how fast F changes, not on its past alone: dt counts, and so do velocities at the
   /// start of a run.
   virtual bool feelsRates() const { return false; }
+  /// Largest ratio of viscosity to modulus, s: it shortens explicit steps.
+  virtual double dampingTime() const { return 0.0; }
   /// Whether the tangent has the symmetry (iJ)(kL); if not, solvers factorise without it.
   virtual bool isSymmetric() const { return true; }
   /// The law, if it is one that the hand-written kernels of bricks know.

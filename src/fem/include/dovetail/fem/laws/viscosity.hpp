@@ -1,6 +1,7 @@
 // Viscosity beside any other law.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 
 #include "dovetail/fem/laws/point_material.hpp"
@@ -14,7 +15,7 @@ namespace dovetail::fem {
 /// dt = 0. A solid that starts deformed would feel a jump: commit() its term once with dt = 0.
 ///
 /// Explicit steps must be shorter than those of `base`: √(τ² + h²) − τ, with the stable step h without viscosity and
-/// the ratio τ of viscosity to modulus, s. Checks of steps at rest do not see that.
+/// the ratio τ of viscosity to modulus, s; stableStep() does so with the moduli at rest.
 /// The history is FᵀF at the start of the step, 11, 22, 33, 12, 23, 31, the mean Ė of the step before, its length, and
 /// then that of `base`.
 struct KelvinVoigt {
@@ -22,6 +23,9 @@ struct KelvinVoigt {
   double bulkViscosity;   ///< κ_v ≥ 0, Pa s
   double shearViscosity;  ///< η ≥ 0, Pa s
 };
+
+/// Numbers of its history before those of `base`.
+inline constexpr std::size_t viscousHistory = 13;
 
 /// Viscosities that are `time` times the elastic moduli: small motions at ω are damped by the ratio ω time/2.
 /// @param time  s

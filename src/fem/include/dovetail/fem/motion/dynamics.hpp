@@ -163,6 +163,8 @@ public:
   DynamicsReport report() const;
   /// What the linear systems of the steps are going to take, before the first of them.
   linalg::LinearForecast forecast();
+  /// Starts anew from the model as it is now, which someone else has moved; the ledger continues.
+  void restart();
   /// Takes another scheme of Newmark's from the next step on. @throws InputError if either is of another family
   void use(const Scheme& scheme);
   const ModelMass& mass() const;

@@ -32,6 +32,9 @@ std::shared_ptr<Term> nodalForce(std::span<const int> nodes, Vec3 force, Amplitu
 /// @throws InputError for no faces or a node that the mesh does not have
 std::shared_ptr<Term> deadPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p,
                                    std::string name = "dead pressure");
+/// The same of a pressure p(X, t), Pa, of reference position, m, and time, s; its work is booked.
+std::shared_ptr<Term> deadPressure(const SolidMesh& mesh, std::span<const Face> faces,
+                                   std::function<double(const Vec3&, double)> p, std::string name = "dead pressure");
 /// A force per reference area that does not follow the faces: f = scale(t) traction ∫ N dA.
 /// @param traction  Pa
 std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> faces, Vec3 traction,
@@ -53,6 +56,11 @@ std::shared_ptr<Term> deadTraction(const SolidMesh& mesh, std::span<const Face> 
 /// @param clamped  nodes that are held in all components; in ascending order
 std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces, Amplitude p,
                                         std::span<const int> clamped = {}, std::string name = "pressure");
+
+/// The same of a pressure p(X, t), Pa, that stays with the material: X is the reference position, m. It has no
+/// potential.
+std::shared_ptr<Term> followingPressure(const SolidMesh& mesh, std::span<const Face> faces,
+                                        std::function<double(const Vec3&, double)> p, std::string name = "pressure");
 
 /// f = −α M v with the mass matrix in use: damping ratio α / (2 ω) of a mode with angular frequency ω. (Damping
 /// proportional to the stiffness is viscosity of the material.) No force in statics.
