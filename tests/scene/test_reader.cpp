@@ -30,7 +30,7 @@ TEST(SceneReader, RefusalsNameThePlaceAndTheNearestName) {
   EXPECT_EQ(refusalOf("\"restitution\"", "\"restitusion\""),
             "there is no key \"restitusion\" [s.json:6:5, contact]: write \"restitution\"");
   EXPECT_EQ(refusalOf("\"5 kN/m\"", "\"5 kN\""),
-            "\"stiffness\" is the text \"5 kN\", in kg m/s2 [s.json:5:18, contact]: write one in N/m");
+            "\"stiffness\" is the text \"5 kN\", in N [s.json:5:18, contact]: write one in N/m");
   EXPECT_EQ(refusalOf("\"linear\"", "\"lineal\""),
             "\"law\" is the text \"lineal\" [s.json:4:12, contact]: write \"linear\"");
   EXPECT_EQ(refusalOf("2500", "-2500"), "\"density\" is -2500 [s.json:9:33, particles.0]: write one above 0 kg/m3");
