@@ -136,16 +136,17 @@ private:
   }
 
   /// Fraction of the light of all directions that reaches a sample between its neighbours (after McGuire et al. 2011,
-  /// the Alchemy screen-space ambient obscurance).
-  double openness(int x, int y, double reach) const {
+  /// the Alchemy screen-space ambient obscurance). @param turn  of the pattern of neighbours, rad
+  double openness(int x, int y, double reach, double turn) const {
     const std::size_t here = samples_.place(x, y);
     if (samples_.depth[here] == Samples::nothing) return 1.0;
     const auto& packed = samples_.normal[here];
     const Vec3 n{packed[0] / 127.0, packed[1] / 127.0, packed[2] / 127.0};
-    constexpr int count = 40;
+    constexpr int count = 24;
     double shut = 0.0;
     for (int k = 0; k < count; ++k) {
-      const double r = reach * std::sqrt((k + 0.5) / count), angle = k * std::numbers::pi * (3.0 - std::sqrt(5.0));
+      const double r = reach * std::sqrt((k + 0.5) / count),
+                   angle = turn + k * std::numbers::pi * (3.0 - std::sqrt(5.0));
       const int qx = x + static_cast<int>(std::lround(r * std::cos(angle))),
                 qy = y + static_cast<int>(std::lround(r * std::sin(angle)));
       if (qx < 0 || qy < 0 || qx >= samples_.width || qy >= samples_.height) continue;
@@ -159,19 +160,51 @@ private:
     return std::max(0.3, 1.0 - 2.6 * shut / count);
   }
 
+  /// The middle sample of a pixel.
+  std::pair<int, int> middleOf(int x, int y) const {
+    return {look_.samples * x + look_.samples / 2, look_.samples * y + look_.samples / 2};
+  }
+  float depthAt(int x, int y) const {
+    const auto [sx, sy] = middleOf(x, y);
+    return samples_.depth[samples_.place(sx, sy)];
+  }
+
+  /// Neighbouring pixels look into 16 directions of their own; their mean, over what is as deep, has no pattern.
+  double smoothed(const std::vector<float>& open, int x, int y, double reach) const {
+    const float here = depthAt(x, y);
+    double sum = 0.0, count = 0.0;
+    for (int j = std::max(0, y - 1); j < std::min(height_, y + 3); ++j)
+      for (int i = std::max(0, x - 1); i < std::min(width_, x + 3); ++i)
+        if (std::abs(depthAt(i, j) - here) < 0.3 * reach) {
+          sum += open[static_cast<std::size_t>(j) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(i)];
+          count += 1.0;
+        }
+    return count > 0.0 ? sum / count : 1.0;
+  }
+
   void darken() {
     const double reach = std::min(project_.length(look_.crevice), 60.0 * look_.samples);
     if (reach < 2.0) return;
+    std::vector<float> open(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    const auto forEachPixel = [&](auto&& act) {
+      parallelFor(static_cast<std::size_t>(height_), 16, [&](std::size_t begin, std::size_t end) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+          for (int x = 0; x < width_; ++x) act(x, y);
+      });
+    };
+    forEachPixel([&](int x, int y) {
+      const auto [sx, sy] = middleOf(x, y);
+      const double turn = 2.0 * std::numbers::pi * ((x & 3) * 4 + (y & 3)) / 16.0;
+      open[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
+          static_cast<float>(openness(sx, sy, reach, turn));
+    });
     const int s = look_.samples;
-    parallelFor(static_cast<std::size_t>(height_), 16, [&](std::size_t begin, std::size_t end) {
-      for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
-        for (int x = 0; x < width_; ++x) {
-          const double open = openness(s * x + s / 2, s * y + s / 2, reach);
-          for (int j = 0; open < 1.0 && j < s; ++j)
-            for (int i = 0; i < s; ++i) {
-              const std::size_t k = samples_.place(s * x + i, s * y + j);
-              if (samples_.depth[k] != Samples::nothing) samples_.colour[k] = lit(samples_.colour[k], open);
-            }
+    forEachPixel([&](int x, int y) {
+      const double light = smoothed(open, x, y, reach);
+      for (int j = 0; light < 1.0 && j < s; ++j)
+        for (int i = 0; i < s; ++i) {
+          const std::size_t k = samples_.place(s * x + i, s * y + j);
+          if (samples_.depth[k] != Samples::nothing) samples_.colour[k] = lit(samples_.colour[k], light);
         }
     });
   }

@@ -72,6 +72,9 @@ public:
     for (Coloured* const field : {&grains_, &solids_, &lines_}) field->range = field->spread.range(field->hue.signs);
     if (options_.grainRange) grains_.range = *options_.grainRange;
     if (options_.solidRange) solids_.range = *options_.solidRange;
+    for (Coloured* const field : {&grains_, &solids_, &lines_})
+      if (field->hue.signs && field->range.low < 0.0 && field->range.high > 0.0)
+        field->palette = picture::Palette::signs;
     // First, middle and last frame are enough to see how far things go.
     std::vector<picture::Drawing> some;
     for (const std::size_t k : {which.front(), which[which.size() / 2], which.back()}) {
@@ -142,8 +145,6 @@ private:
                picture::Palette::warm};
     lines_ = {quantityNamed("normal_force"), picture::Palette::warm};
     lines_.hue.signs = options_.lines == "bonds";
-    for (Coloured* const field : {&grains_, &solids_, &lines_})
-      if (field->hue.signs) field->palette = picture::Palette::signs;
   }
 
   std::vector<double> ofSolid(const io::FrameContent& frame) const {
@@ -172,7 +173,7 @@ private:
                       {picture::coloursOf(solids_.palette)},
                       {picture::coloursOf(lines_.palette)},
                       {{wall}, 1.0, 0.3},
-                      {{Colour{110, 124, 146}}, 0.22},
+                      {{Colour{92, 106, 130}}, 0.3},
                       {{pale}},
                       {{pale}}};
     addGrains(drawing, instant);
@@ -377,17 +378,19 @@ fs::path writePicture(const fs::path& folder, const PictureOptions& options, std
 
 ShownRun showRun(const fs::path& folder) {
   std::error_code error;
-  for (const char* const name : {"grains.pvd"})
-    if (!fs::exists(folder / name, error)) {
-      bool any = false;
-      for (const auto& entry : fs::directory_iterator(folder, error)) any = any || entry.path().extension() == ".pvd";
-      if (!any) return {};
-    }
-  if (!fs::is_regular_file(folder / "scene.json", error)) return {};
-  Pictures pictures(folder, {});
-  const std::size_t last = pictures.numberOf(-1);
-  pictures.prepare({last});
-  return {picture::pngOf(pictures.draw(last, 3), programMark(), pictures.caption(last)), pictures.caption(last)};
+  bool hasFrames = false;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    hasFrames = hasFrames || entry.path().extension() == ".pvd";
+  if (!hasFrames) return {};
+  try {
+    Pictures pictures(folder, {});
+    const std::size_t last = pictures.numberOf(-1);
+    pictures.prepare({last});
+    const std::string caption = pictures.caption(last);
+    return {picture::pngOf(pictures.draw(last, 3), programMark(), caption), caption};
+  } catch (const InputError& wrong) {
+    return {"", wrong.what()};
+  }
 }
 
 }  // namespace dovetail::scene

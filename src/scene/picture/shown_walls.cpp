@@ -76,8 +76,23 @@ private:
   }
 
   /// A piece of a wall that looks along `normal`, towards the grains.
-  void addPiece(const std::vector<Vec3>& corners, const Vec3& normal, bool isBody = false) {
-    if (dot(normal, back_) > 1e-9 * norm(normal)) addPolygon(corners, isBody ? wide_ : box_, paints_.solid);
+  void addPiece(const std::vector<Vec3>& corners, const Vec3& normal) { addPiece(corners, normal, box_); }
+  void addPiece(const std::vector<Vec3>& corners, const Vec3& normal, const geometry::Box& box) {
+    if (dot(normal, back_) > 1e-9 * norm(normal)) addPolygon(corners, box, paints_.solid);
+  }
+
+  /// Drums are drawn all round where they are not much larger than what is in them.
+  geometry::Box boxOf(const Cylinder& cylinder, const Vec3& axis, const Vec3& point) const {
+    if (!cylinder.inside) return wide_;
+    const Vec3 size = box_.upper - box_.lower;
+    geometry::Box box = box_;
+    if (2.0 * cylinder.radius > 1.8 * std::max({size.x, size.y, size.z})) return box;
+    for (int c = 0; c < 3; ++c) {
+      if (std::abs(axis[c]) > 0.5) continue;
+      box.lower[c] = std::min(box.lower[c], point[c] - cylinder.radius);
+      box.upper[c] = std::max(box.upper[c], point[c] + cylinder.radius);
+    }
+    return box;
   }
 
   double reach() const { return norm(box_.upper - box_.lower); }
@@ -130,10 +145,10 @@ private:
     const Vec3 size = box_.upper - box_.lower;
     const double along = std::abs(axis.x) * size.x + std::abs(axis.y) * size.y + std::abs(axis.z) * size.z;
     const Vec3 half = (cylinder.inside ? reach() : 0.5 * along) * axis;
+    const geometry::Box box = boxOf(cylinder, axis, point);
     for (int k = 0; k < sides; ++k) {
       const Vec3 p = centre + cylinder.radius * radial(k), q = centre + cylinder.radius * radial(k + 1);
-      addPiece({p - half, q - half, q + half, p + half}, (cylinder.inside ? -1.0 : 1.0) * radial(k + 0.5),
-               !cylinder.inside);
+      addPiece({p - half, q - half, q + half, p + half}, (cylinder.inside ? -1.0 : 1.0) * radial(k + 0.5), box);
     }
   }
 
@@ -149,7 +164,7 @@ private:
         const std::vector<Vec3> n{at(ring, side), at(ring + 1, side), at(ring + 1, side + 1), at(ring, side + 1)};
         std::vector<Vec3> corners;
         for (const Vec3& direction : n) corners.push_back(centre + sphere.radius * direction);
-        addPiece(corners, (sphere.inside ? -1.0 : 1.0) * (n[0] + n[2]), !sphere.inside);
+        addPiece(corners, (sphere.inside ? -1.0 : 1.0) * (n[0] + n[2]), sphere.inside ? box_ : wide_);
       }
   }
 

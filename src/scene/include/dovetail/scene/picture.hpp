@@ -36,8 +36,8 @@ struct PictureOptions {
 std::filesystem::path writePicture(const std::filesystem::path& folder, const PictureOptions& options,
                                    std::ostream& log);
 
-/// The last frame for a report: bytes of a PNG file, and what it shows; empty without frames, and in builds without VTK
-/// and zlib.
+/// The last frame for a report: bytes of a PNG file, and what it shows, or why there is none. Both are empty without
+/// frames, and in builds without VTK and zlib.
 struct ShownRun {
   std::string png, caption;
 };
