@@ -84,7 +84,8 @@ void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyL
   }
   ledger.set(side.name + ": supports", booked, supports);
   ledger.set(side.name + ": booked with earlier steps", booked, bookedBefore);
-  if (!held.holds() && statics.held == 0.0 && !ledger.find(side.name + ": load steps", booked)) return;
+  const bool none = statics.held == 0.0 && statics.loads == 0.0 && statics.dissipated == 0.0;
+  if (none && !ledger.find(side.name + ": load steps", booked)) return;
   // What has been held back is no kinetic energy to be damped, though it comes to the same.
   ledger.set(side.name + ": load steps", booked, -statics.held);
   ledger.set(side.name + ": work of loads in load steps", booked, -statics.loads);
