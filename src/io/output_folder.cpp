@@ -165,8 +165,7 @@ void removeReport(const fs::path& folder) {
     }
     for (const fs::path& figure : figures) removeOurs(figure);
   }
-  for (const fs::path& page :
-       {text, folder / "report.html", folder / "report_picture.png", folder / "picture.png", folder / "film.gif"})
+  for (const fs::path& page : {text, folder / "report.html", folder / "report_picture.png"})
     if (isOurs(page)) removeOurs(page);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "../cantilever/program.hpp"
+#include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/report/table.hpp"
 
@@ -164,13 +165,17 @@ TEST(PictureVerb, DrawsFramesAndFilmsAndReplacesItsOwnFilesOnly) {
     ++images;
   const std::filesystem::directory_iterator frames(bounce.folder / "out/grains");
   EXPECT_EQ(images, static_cast<std::size_t>(std::distance(begin(frames), end(frames))));
+  ASSERT_EQ(runProgram({"report", bounce.out}).code, 0);
+  for (const char* const name : {"out/picture.png", "out/film.gif", "out/report_picture.png"})
+    EXPECT_TRUE(io::isOurs(bounce.folder / name)) << name;
   // A run that replaces this one takes its pictures away, but not those of others.
   writeText(bounce.folder / "out/picture.png", "mine");
   const Outcome taken = runProgram({"picture", bounce.out});
   EXPECT_EQ(taken.code, 2);
   EXPECT_NE(taken.err.find("not from an earlier run"), std::string::npos) << taken.err;
   ASSERT_EQ(runProgram({"run", bounce.file, "--out", bounce.out, "--replace"}).code, 0);
-  EXPECT_FALSE(std::filesystem::exists(bounce.folder / "out/film.gif"));
+  for (const char* const name : {"out/film.gif", "out/report_picture.png", "out/report.html"})
+    EXPECT_FALSE(std::filesystem::exists(bounce.folder / name)) << name;
   EXPECT_EQ(readText(bounce.folder / "out/picture.png"), "mine");
 }
 

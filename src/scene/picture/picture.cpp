@@ -56,8 +56,9 @@ public:
         scene_(readRun(folder)),
         frames_(folder, scene_),
         background_(colourNamed(options.background)) {
-    const Instant last = frames_.read(frames_.count() - 1);
-    chooseFields(last);
+    // Grains may come and go.
+    const std::size_t last = frames_.count() - 1;
+    chooseFields({frames_.read(last), frames_.read(last / 2), frames_.read(0)});
     if (options.lines != "none" && !frames_.has(options.lines))
       throw InputError("there are no frames of " + options.lines, "--lines",
                        "add \"" + options.lines + "\" to \"contents\" in \"output\" of the scene, and run again");
@@ -132,13 +133,17 @@ private:
     return "";
   }
 
-  void chooseFields(const Instant& instant) {
-    std::vector<std::string> ofSolidFrames;
-    for (const Solid& solid : scene_.solids)
-      if (const io::FrameContent* const frame = instant.find("solid_" + solid.name))
-        for (const std::string& name : fieldsOf(*frame)) ofSolidFrames.push_back(name);
-    const io::FrameContent* const grains = instant.find("grains");
-    const std::vector<std::string> ofGrainFrames = grains ? fieldsOf(*grains) : std::vector<std::string>{};
+  void chooseFields(const std::vector<Instant>& instants) {
+    std::vector<std::string> ofSolidFrames, ofGrainFrames;
+    const auto add = [](std::vector<std::string>& to, const io::FrameContent* frame) {
+      if (!frame || frame->position.empty()) return;
+      for (const std::string& name : fieldsOf(*frame))
+        if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(name);
+    };
+    for (const Instant& instant : instants) {
+      add(ofGrainFrames, instant.find("grains"));
+      for (const Solid& solid : scene_.solids) add(ofSolidFrames, instant.find("solid_" + solid.name));
+    }
     grains_ = {quantityNamed(choose(options_.grains, ofGrainFrames, {"speed", "radius"}, "--grains")),
                picture::Palette::cold};
     solids_ = {quantityNamed(choose(options_.solids, ofSolidFrames, {"von_mises", "displacement"}, "--solids")),

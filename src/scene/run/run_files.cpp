@@ -32,7 +32,8 @@ std::vector<std::string> fileNames(const Scene& scene, bool goesOn) {
 }
 
 void removeEnd(const fs::path& folder) {
-  removeIfOurs(folder, {"summary.txt", "summary.json", "series.h5", "fields.vti"});
+  removeIfOurs(folder, {"summary.txt", "summary.json", "series.h5", "fields.vti", "profile_x.csv", "profile_y.csv",
+                        "profile_z.csv", "picture.png", "film.gif"});
   io::removeReport(folder);
 }
 

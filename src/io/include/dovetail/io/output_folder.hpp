@@ -54,7 +54,7 @@ void requireFreeOrOurs(const std::filesystem::path& path);
 /// @throws InputError if something that is not ours is at `path`; Error if it cannot be removed
 void removeOurs(const std::filesystem::path& path);
 
-/// Removes the pages of a report of ours, figures that it names, and pictures of the run.
+/// Removes the pages and the picture of a report of ours, and of figures those that it names.
 void removeReport(const std::filesystem::path& folder);
 
 /// @throws InputError if there are files of an earlier run of ours in a folder, finished or not
