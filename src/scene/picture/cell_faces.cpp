@@ -70,7 +70,7 @@ std::vector<Cell> cellsOf(const io::FrameContent& frame) {
   std::size_t begin = 0;
   for (std::size_t c = 0; c < frame.cellType.size(); ++c) {
     if (const Shape* const shape = shapeOf(frame.cellType[c]))
-      cells.push_back({shape, &frame.cellPoint[begin], frame.cellEnd[c] - begin});
+      cells.push_back({shape, frame.cellPoint.data() + begin, frame.cellEnd[c] - begin});
     begin = frame.cellEnd[c];
   }
   return cells;
