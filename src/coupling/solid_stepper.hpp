@@ -27,6 +27,7 @@ public:
   fem::HeldLoad held;         ///< what a static stage has yet to release
   struct StaticWork {
     double loads = 0.0, supports = 0.0, dissipated = 0.0, held = 0.0;  ///< J, in load steps
+    int negativePivots = -1;                                           ///< of the tangent at the end of the last one
   };
   StaticWork statics;
   bool stands = false;  ///< a load step has come last: whatever its supports do next, nothing accelerates
@@ -65,7 +66,8 @@ public:
   void stop();
   /// From rest in equilibrium to rest in equilibrium at `time`, s, while what is held falls to the fraction `after`.
   /// @throws NumericalError if there is none; the solid is then in the last one
-  void loadStep(double after, double time);
+  /// @return whether it is stable, or nobody knows
+  bool loadStep(double after, double time);
 
   /// What the linear systems of its steps are going to take; nothing if there are none.
   virtual linalg::LinearForecast forecast() { return {}; }

@@ -30,6 +30,7 @@ private:
 void add(const fem::StaticReport& report, SolidStepper::StaticWork& works) {
   works.loads += report.loadWork;
   works.dissipated += report.dissipated;
+  if (!report.steps.empty()) works.negativePivots = report.steps.back().negativePivots;
 }
 
 /// Where no time passes and no support moves: what is held falls from `before` to `after` in one step, or in halves.
@@ -54,7 +55,7 @@ void SolidStepper::stop() {
   std::ranges::fill(side.nodes().v, Vec3{});
 }
 
-void SolidStepper::loadStep(double after, double time) {
+bool SolidStepper::loadStep(double after, double time) {
   fem::Model& model = *model_;
   const double before = held.factor(model.t), length = time - model.t, worked = held.work();
   fem::StaticOptions options{.smallestStep = smallestPart};
@@ -81,6 +82,7 @@ void SolidStepper::loadStep(double after, double time) {
   stands = true;
   statics.supports += kineticEnergy();  // those that move do so at once
   side.outside.give("supports", fem::momentaOf(side.nodes(), *side.mass));
+  return works.negativePivots <= 0;
 }
 
 void CoupledRun::Impl::stopSolids() {
@@ -102,7 +104,7 @@ void CoupledRun::Impl::requireApart(const char* when) const {
                        "let load steps come before the particles, or bring all to rest together by relaxing");
 }
 
-void CoupledRun::loadStep(std::int64_t step, std::int64_t steps, double time) {
+std::vector<std::string> CoupledRun::loadStep(std::int64_t step, std::int64_t steps, double time) {
   impl_->requireStarted("loadStep");
   dem::close(grains);
   for (const auto* connector : grains.terms.all<Connector>())
@@ -118,13 +120,15 @@ void CoupledRun::loadStep(std::int64_t step, std::int64_t steps, double time) {
     run.stopSolids();
   }
   const double until = grains.time + time, after = 1.0 - static_cast<double>(step + 1) / static_cast<double>(steps);
+  std::vector<std::string> unstable;
   for (const auto& solid : run.solids) {
     if (step == 0)
       solid->held.hold(*solid->side.model);
     else
       solid->stop();
     try {
-      solid->loadStep(step + 1 == steps ? 0.0 : after, time > 0.0 ? until : solid->side.model->t);
+      const bool stable = solid->loadStep(step + 1 == steps ? 0.0 : after, time > 0.0 ? until : solid->side.model->t);
+      if (!stable) unstable.push_back(solid->side.name);
     } catch (const NumericalError& error) {
       throw NumericalError(
           error.what(),
@@ -141,6 +145,7 @@ void CoupledRun::loadStep(std::int64_t step, std::int64_t steps, double time) {
   run.rememberLoads();
   run.sampled = false;
   run.requireApart("after");
+  return unstable;
 }
 
 }  // namespace dovetail::coupling

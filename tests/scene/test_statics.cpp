@@ -158,6 +158,21 @@ TEST(SceneStatics, WithoutEquilibriumTheLoadStepIsNamed) {
   }
 }
 
+/// π² E h²/(12 (2 L)²) for h = 1 and L = 40; the bar stays straight either way.
+TEST(SceneStatics, EquilibriaThatWouldBuckleAreNamed) {
+  const auto unstable = [](double stress) {
+    std::string keys = bar(R"("loads": [{"on": "z+", "type": "traction", "traction": [0, 0, )" +
+                           std::to_string(-stress) + R"(]}], "formulation": "enhanced")");
+    const std::string box = R"("cells": [1, 1, 4], "box": [[0, 0, 0], [1, 1, 4]])";
+    keys.replace(keys.find(box), box.size(), R"("cells": [1, 1, 40], "box": [[0, 0, 0], [1, 1, 40]])");
+    Built built = started(staticScene(keys, R"({"do": "statics"})"));
+    return built.run->loadStep(0, 1, 0.0);
+  };
+  const double buckling = std::numbers::pi * std::numbers::pi * 1e6 / (12.0 * 6400.0);
+  EXPECT_TRUE(unstable(0.95 * buckling).empty());
+  EXPECT_EQ(unstable(1.05 * buckling), std::vector<std::string>{"bar"});
+}
+
 /// Springs in series: 2 m of E and 2 m of 4 E.
 TEST(SceneRegions, ABarOfTwoMaterials) {
   const std::string stiff = R"("sets": [{"name": "upper", "place": "box", "box": [[0, 0, 2], [1, 1, 4]]}],

@@ -173,7 +173,12 @@ private:
   bool load(const Statics& statics) {
     const double time = statics.time.value_or(0.0) / static_cast<double>(statics.loadSteps);
     while (progress_.macroStep < statics.loadSteps) {
-      built_.run->loadStep(progress_.macroStep++, statics.loadSteps, time);
+      const auto unstable = built_.run->loadStep(progress_.macroStep++, statics.loadSteps, time);
+      for (const std::string& name : unstable)
+        if (progress_.macroStep == statics.loadSteps)
+          remark("the equilibrium of \"" + name +
+                     "\" is not stable: it buckles as soon as anything disturbs it; lower its loads, or run instead",
+                 true);
       if (time == 0.0 && progress_.macroStep < statics.loadSteps) {
         if (io::interruption() != 0) return false;
         continue;

@@ -122,9 +122,10 @@ public:
   /// prescribed motion go on by `time`, s, which may be 0. Solids are at rest after it; velocities before the first one
   /// are booked as "kinetic damping". Particles do not take part: they may touch no solid, before or after, and stand
   /// still if time passes. Ledger: work of loads, of supports and of what is held back, by trapezoidal sums.
+  /// @return names of the solids whose equilibrium is not stable, as far as their solver tells
   /// @throws InputError for a connector that constrains; if particles touch a solid; for time that passes with
   ///         particles. NumericalError naming solid and load step where there is no equilibrium
-  void loadStep(std::int64_t step, std::int64_t steps, double time);
+  std::vector<std::string> loadStep(std::int64_t step, std::int64_t steps, double time);
 
   /// Sets all velocities to zero, between macro steps; the energy that this takes is booked as "kinetic damping".
   void stop();
