@@ -229,7 +229,7 @@ TEST(TieInput, WhatCannotBeIsRefused) {
     dem::check(run.grains);
   };
   EXPECT_NO_THROW(attempt([](TieRun&, auto&) {}));
-  EXPECT_THROW(attempt([](TieRun&, auto& weight) { weight[5] += 0.01; }), InputError) << "shares do not add up";
+  EXPECT_THROW(attempt([](TieRun&, auto& changed) { changed[5] += 0.01; }), InputError) << "weights do not add up";
   EXPECT_THROW(attempt([](TieRun& run, auto&) {
                  dem::addParticle(run.grains.particles, {0.0, 2.9, 0.0}, {}, 0.1, dem::Mass{1.0});
                }),

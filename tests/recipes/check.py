@@ -111,6 +111,48 @@ def repose(run):
     compare("height at the edges over 1.25 diameters", edge * height, 1.25 * d, 0.6)
 
 
+def oedometer(run):
+    r = run("oedometer.json")
+    d, k, layers, spheres, pressure = 0.01, 1e5, 8, 16, 1e4
+    area = 4 * d * 2 * math.sqrt(3) * d
+    modulus = 3 * 4 / 9 * math.sqrt(2) * k / d
+    height = (layers - 1) * math.sqrt(2 / 3) * d
+    compare("force on the lid", r.last("lid_z_N"), pressure * area, 1e-3)
+    compare("settlement", -r.last("lid_uz_m"), pressure * height / modulus + 2 * pressure * area / (spheres * k), 1e-3)
+
+
+def triaxial(run):
+    r = run("triaxial.json", "strain=0.08", "time=0.267")
+    edge, angles, across = 0.06, [], []
+    for k in range(len(r.column["time_s"])):
+        x, y, z = (edge + r.column[f"{c}_u{c}_m"][k] for c in "xyz")
+        if z > 0.96 * edge:
+            continue
+        lateral = 0.5 * (r.column["x_x_N"][k] / (y * z) + r.column["y_y_N"][k] / (x * z))
+        axial = r.column["z_z_N"][k] / (x * y)
+        across.append(lateral)
+        angles.append(math.degrees(math.asin((axial - lateral) / (axial + lateral))))
+    compare("lateral pressure", sum(across) / len(across), 1e4, 0.06)
+    compare("friction angle", sum(angles) / len(angles), 22.3, 0.1)
+
+
+def shear(run):
+    r = run("shear.json", "way=6.5 mm", "time=0.325")
+    late = [k for k, u in enumerate(r.column["lower_ux_m"]) if u < -4.5e-3]
+    ratio = [(r.column["lower_x_N"][k] + r.column["floor_x_N"][k]) / r.column["lid_z_N"][k] for k in late]
+    compare("shear over normal stress", sum(ratio) / len(ratio), 0.404, 0.15)
+    normal = [r.column["lid_z_N"][k] for k in late]
+    compare("normal force", sum(normal) / len(normal), 1e4 * 0.15 * 0.036, 0.02)
+
+
+def conveyor(run):
+    r = run("../belt.json")
+    mass, v = r.summary["momentum"]["mass_kg"], 0.3
+    compare("velocity", r.last("beads_vx_m_per_s"), v, 5e-3)
+    compare("weight on the belt", -r.last("belt_z_N"), mass * 9.81, 5e-3)
+    compare("work of the belt", -r.last("particles_work_of_walls_and_drives_minus_J"), mass * v * v, 5e-3)
+
+
 def main():
     name, program, scenes, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
