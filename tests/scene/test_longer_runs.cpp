@@ -1,7 +1,10 @@
 // Runs that go on from what is whole, to another end, on other numbers of threads.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "../cantilever/program.hpp"
+#include "dovetail/io/time_series.hpp"
 
 namespace dovetail::scene {
 namespace {
@@ -78,6 +81,48 @@ TEST(LongerRuns, BeginAfterWhatBroughtToRest) {
   ASSERT_EQ(runProgram(poured(done, "1", stages("0.011"))).code, 0);
   EXPECT_EQ(resumed(done, {"--until", rows.substr(last, rows.find(',', last) - last)}).code, 0);
   expectSame(done, whole, {"scene.json", "series.h5"});  // whose times are not rounded to macro steps
+}
+
+/// Grains of a sieve curve, and clumps, enter until their totals and stick to each other.
+std::string sticky(const std::string& contact, double time) {
+  return R"({"gravity": [0, 0, -9.81], "contact": )" + contact + R"(, "damping": {"rate": 2, "local": 0.05},
+    "walls": [{"shape": "box", "box": [[0, 0, 0], [0.1, 0.1, 0.3]], "open": ["z+", "x+"]}], "insertions": [
+      {"region": [[0, 0, 0], [0.1, 0.1, 0.1]], "density": 2500, "number_per_second": 6000, "total_mass": 0.1,
+       "from": "11 ms", "radius": {"distribution": "sieves", "sieves": [{"opening": 0.008, "passing": 0},
+         {"opening": 0.01, "passing": 0.6}, {"opening": 0.014, "passing": 1}]}},
+      {"region": [[0, 0, 0], [0.1, 0.1, 0.1]], "density": 2500, "number_per_second": 500, "until": "30 ms",
+       "velocity": [1, 0, 0], "spin": [0, 9, 0], "clumps": [{"spheres": [{"at": [0, 0, 0], "radius": 0.005},
+         {"at": [0.006, 0, 0], "radius": 0.005}]}]}],
+    "outlets": [{"region": [[0.1, 0, -9], [9, 9, 9]]}], "steps": {"dt": "20 us", "threads": 1}, "stages": [{"do": "run", "time": )" +
+         std::to_string(time) + R"(}], "output": {"series": 1e-3, "checkpoints": 0.01}})";
+}
+
+TEST(LongerRuns, OfGrainsThatEnterAndStick) {
+  for (const char* const contact :
+       {R"({"law": "linear", "stiffness": 5000, "restitution": 0.6, "friction": 0.4, "liquid_bridge":
+           {"surface_tension": 0.072, "volume": "2 mm3", "contact_angle": "20 deg"}})",
+        R"({"law": "elastic-plastic", "stiffness": 3000, "unloading_stiffness": 9000, "cohesion_stiffness": 1000,
+           "friction": 0.4, "adhesion": {"work": 0.1}})"}) {
+    const ScratchFolder scenes, whole, done;
+    const auto runs = [&](const ScratchFolder& out, double time) {
+      io::test::writeText(scenes / "s.json", sticky(contact, time));
+      return runProgram({"run", (scenes / "s.json").string(), "--out", out.path().string()});
+    };
+    ASSERT_EQ(runs(whole, 0.06).code, 0);
+    const auto outcome = runs(done, 0.02);
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(resumed(done, {"--until", "0.06", "--threads", "3"}).code, 0);
+    const auto rows = [](const ScratchFolder& folder) {
+      const std::string text = io::test::readText(folder / "series.csv");
+      return text.substr(text.find("\ntime_s"));
+    };
+    EXPECT_EQ(rows(done), rows(whole));
+    const io::TimeSeries series = io::readCsv(whole / "series.csv");
+    EXPECT_GT(series.column("left").back(), 0.0);
+    EXPECT_GT(series.column("entered").back(), 40.0);
+    EXPECT_LT(std::abs(series.column("residual_J").back()),
+              1e-2 * std::abs(series.column("particles_entered_minus_J").back()));
+  }
 }
 
 TEST(LongerRuns, AreRefusedWhereNoEndCanBe) {

@@ -179,6 +179,7 @@ ContactWork exchangeBonds(Particles& particles, Bonds& bonds, const geometry::Pe
   });
   bonds.broken.clear();
   bonds.powerOfBroken = answer.powerOfBroken;
+  bonds.brokenSoFar += answer.broken;
   for (std::size_t b = answer.broken > 0 ? bonds.size() : 0; b-- > 0;)
     if (bonds.utilised[b] > 1.0) {
       const auto [i, j] = std::minmax(bonds.bonds[b].i, bonds.bonds[b].j);

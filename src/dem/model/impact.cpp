@@ -50,17 +50,6 @@ std::vector<double> mobilities(const Model& m) {
   return inverse;
 }
 
-double smallestOf(const Sizes& sizes) {
-  return std::visit(
-      [](const auto& s) {
-        if constexpr (requires { s.smallest; })
-          return s.smallest;
-        else
-          return 0.5 * s.diameter.front();
-      },
-      sizes);
-}
-
 /// Who is there and who comes, how fast; and those of them that touch nobody yet, and from how high these may fall.
 struct Crowd {
   Hitters free, all;
@@ -94,7 +83,7 @@ void addNewcomers(const InsertionOptions& s, Crowd& crowd) {
   for (const ClumpShape& shape : s.shapes)
     offerTwo(lever / shape.properties.mass, *std::min_element(shape.radius.begin(), shape.radius.end()));
   if (!s.shapes.empty()) return;
-  const double r = smallestOf(s.sizes);
+  const double r = boundsOf(s.sizes).smallest;
   offerTwo(1.0 / (s.density.value * 4.0 / 3.0 * std::numbers::pi * r * r * r), r);
 }
 

@@ -88,8 +88,8 @@ void BondTerm::book(Model& m, const Step& step) {
 
 void BondTerm::addDemand(const Model& m, ContactDemand& demand) const { dem::addDemand(demand, m.particles, bonds); }
 
-void BondTerm::save(ByteWriter& writer) const { writer(bonds.bonds, bonds.energy, mutesContacts); }
-void BondTerm::load(ByteReader& reader) { reader(bonds.bonds, bonds.energy, mutesContacts); }
+void BondTerm::save(ByteWriter& writer) const { writer(bonds.bonds, bonds.energy, bonds.brokenSoFar, mutesContacts); }
+void BondTerm::load(ByteReader& reader) { reader(bonds.bonds, bonds.energy, bonds.brokenSoFar, mutesContacts); }
 
 Bonds& bonds(Model& m) {
   const auto found = m.terms.all<BondTerm>();

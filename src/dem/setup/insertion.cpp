@@ -21,16 +21,6 @@ struct Newcomer {
   double mass;
 };
 
-double largestRadius(const Sizes& sizes) {
-  struct {
-    double operator()(const GradingCurve& s) const { return 0.5 * s.diameter.back(); }
-    double operator()(const UniformSizes& s) const { return s.largest; }
-    double operator()(const NormalSizes& s) const { return s.largest; }
-    double operator()(const LogNormalSizes& s) const { return s.largest; }
-  } largest;
-  return std::visit(largest, sizes);
-}
-
 /// Radius of the sphere about its centre of mass that holds a clump, m.
 double reachOf(const ClumpShape& shape) {
   double reach = 0.0;
@@ -98,6 +88,12 @@ void checkSettings(const InsertionOptions& s) {
   requireNonNegative(s.numberPerSecond, "number per second");
   requireNonNegative(s.massPerSecond, "mass per second");
   requireNonNegative(s.interval, "interval of an insertion");
+  requireNonNegative(s.from, "begin of an insertion");
+  if (!(s.until > s.from))
+    throw InputError("it ends at " + formatNumber(s.until) + " s, and begins at " + formatNumber(s.from) + " s",
+                     "insertion", "let it end after its begin");
+  if (s.totalNumber < 1 || !(s.totalMass > 0.0))
+    throw InputError("nothing is to enter", "insertion", "give a total number of 1 or more, and a total mass above 0");
   if ((s.numberPerSecond > 0.0) + (s.massPerSecond > 0.0) + s.replacesLeavers != 1)
     throw InputError("there are two rates, or none", "insertion",
                      "give numberPerSecond, massPerSecond or replacesLeavers");
@@ -107,7 +103,7 @@ void checkSettings(const InsertionOptions& s) {
 }
 
 void checkRegion(const InsertionOptions& s) {
-  double radius = s.shapes.empty() ? largestRadius(s.sizes) : 0.0;
+  double radius = s.shapes.empty() ? boundsOf(s.sizes).largest : 0.0;
   for (const ClumpShape& shape : s.shapes) radius = std::max(radius, reachOf(shape));
   for (int k = 0; k < 3; ++k) {
     const double length = s.region.upper[k] - s.region.lower[k];
@@ -160,6 +156,10 @@ int insert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* c
   const InsertionOptions& s = insertion.settings;
   requireNonNegative(dt, "step of an insertion");
   const bool byMass = s.massPerSecond > 0.0;
+  if (isComplete(insertion)) {
+    insertion.due = 0.0;
+    return 0;
+  }
   insertion.due += dt * (byMass ? s.massPerSecond : s.numberPerSecond);
   insertion.waited += dt;
   const auto price = [&] { return byMass ? nextOf(insertion).mass : 1.0; };
@@ -174,11 +174,12 @@ int insert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* c
   insertion.waited = 0.0;
   FreeRoom room(particles, surroundings, s.region);
   int entered = 0;
-  while (insertion.due >= price()) {
+  while (insertion.due >= price() && !isComplete(insertion)) {
     const double mass = nextOf(insertion).mass;
     insertion.due -= price();
     if (tryInsert(insertion, particles, bodies, clumps, surroundings.space, room)) {
       ++entered;
+      ++insertion.inserted;
       insertion.insertedMass += mass;
     } else {
       ++insertion.refused;
@@ -186,11 +187,16 @@ int insert(Insertion& insertion, Particles& particles, Bodies* bodies, Clumps* c
     }
     drawNext(insertion);
   }
-  insertion.inserted += entered;
   return entered;
 }
 
 }  // namespace
+
+bool isComplete(const Insertion& insertion) {
+  const InsertionOptions& s = insertion.settings;
+  if (insertion.inserted >= s.totalNumber) return true;
+  return std::isfinite(s.totalMass) && insertion.insertedMass + 0.5 * nextOf(insertion).mass > s.totalMass;
+}
 
 Insertion makeInsertion(const InsertionOptions& settings) {
   checkSettings(settings);

@@ -20,6 +20,13 @@ Surroundings surroundingsOf(const Model& m) {
   return around;
 }
 
+/// Of the step, in which the insertion goes on, s.
+double activePart(const InsertionOptions& s, const Step& step) {
+  const double begin = step.time - step.dt;
+  if (begin >= s.from && step.time <= s.until) return step.dt;
+  return std::max(0.0, std::min(step.time, s.until) - std::max(begin, s.from));
+}
+
 bool inside(const geometry::Box& box, const Vec3& x) {
   for (int k = 0; k < 3; ++k)
     if (!(x[k] >= box.lower[k] && x[k] <= box.upper[k])) return false;
@@ -79,10 +86,12 @@ void InsertionTerm::check(const Model& m) const {
 }
 
 void InsertionTerm::exchange(Model& m, const Step& step) {
+  const double active = activePart(insertion.settings, step);
   if (insertion.settings.replacesLeavers) {
-    insertion.due += static_cast<double>(m.left.count - replaced_);
+    if (active > 0.0) insertion.due += static_cast<double>(m.left.count - replaced_);
     replaced_ = m.left.count;
   }
+  if (active == 0.0 || isComplete(insertion)) return;
   const auto rotate = [&] {
     if (m.rotation == Rotation::automatic && m.laws && m.laws->rotates()) switchOnRotation(m.particles);
   };
@@ -90,13 +99,13 @@ void InsertionTerm::exchange(Model& m, const Step& step) {
   const Surroundings around = surroundingsOf(m);
   const std::size_t particles = m.particles.size();
   if (insertion.settings.shapes.empty()) {
-    if (insertParticles(insertion, m.particles, around, step.dt) == 0) return;
+    if (insertParticles(insertion, m.particles, around, active) == 0) return;
     rotate();
     admitParticles(m, particles);
   } else {
     BodyTerm& rigid = bodies(m);
     const auto count = static_cast<int>(rigid.bodies.size());
-    if (insertParticles(insertion, m.particles, rigid.bodies, rigid.clumps, around, step.dt) == 0) return;
+    if (insertParticles(insertion, m.particles, rigid.bodies, rigid.clumps, around, active) == 0) return;
     rotate();
     rigid.admit(m, count);
   }

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/model/loads.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "from_state.hpp"
@@ -168,6 +169,10 @@ Built build(const Scene& scene) {
   setLaws(grains, scene);
   grains.gravity = scene.gravity;
   if (scene.periodic) grains.pairs.setPeriodicity({scene.periodic->box, scene.periodic->axes});
+  if (scene.damping) {
+    dem::damping(grains).viscousRate = scene.damping->rate;
+    dem::damping(grains).local = scene.damping->local;
+  }
   if (scene.domain)
     grains.domain =
         dem::Domain{scene.domain->box, scene.domain->removes ? dem::EscapePolicy::remove : dem::EscapePolicy::refuse};

@@ -1,15 +1,18 @@
 // Contact laws of a scene.
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <sstream>
+#include <type_traits>
 
+#include "dovetail/core/finite.hpp"
 #include "dovetail/dem/laws/materials.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "keys/advice.hpp"
 #include "parts.hpp"
+#include "sizes.hpp"
 
 namespace dovetail::scene {
 
@@ -38,20 +41,12 @@ struct Table {
 /// Without friction, where others of the table have some.
 const Rolling freely{0.0, 1.0, 0.0};
 
-/// The parts that some law of the table has, for all of them.
-template <class Normal, class Tangential, class PartsOf>
-std::shared_ptr<const dem::ContactLaws> withParts(const Table& table, const PartsOf& partsOf) {
-  using dem::RollingResistance, dem::TwistingResistance, dem::RollingAndTwisting, dem::makeContactLaws;
+/// Calls use(of) with the part of a law against rolling and twisting, of one type for the whole table.
+template <class Use>
+auto withRolling(const Table& table, const Use& use) {
+  using dem::RollingResistance, dem::TwistingResistance, dem::RollingAndTwisting;
   const bool rolls = table.any([](const ContactLaw& law) { return law.rolling.has_value(); });
   const bool twists = table.any([](const ContactLaw& law) { return law.twisting.has_value(); });
-  const bool rubs = table.any([](const ContactLaw& law) { return law.friction > 0.0; });
-  const auto make = [&](const auto& lawOf) {
-    return makeContactLaws(dem::makeLawTable(table.rows, [&](int a, int b) {
-      const Entry& entry = table.at(a, b);
-      const auto [normal, tangential] = atPlace(entry.law->where, [&] { return partsOf(entry); });
-      return lawOf(normal, tangential, *entry.law);
-    }));
-  };
   const auto rolling = [](const ContactLaw& law) {
     return resistance<RollingResistance>(law.rolling.value_or(freely));
   };
@@ -59,22 +54,63 @@ std::shared_ptr<const dem::ContactLaws> withParts(const Table& table, const Part
     return resistance<TwistingResistance>(law.twisting.value_or(freely));
   };
   if (rolls && twists)
-    return make([&](const Normal& n, const Tangential& t, const ContactLaw& law) {
-      return dem::ContactLaw<Normal, Tangential, RollingAndTwisting>{n, t, {rolling(law), twisting(law)}};
+    return use([&](const ContactLaw& law) { return RollingAndTwisting{rolling(law), twisting(law)}; });
+  if (rolls) return use(rolling);
+  if (twists) return use(twisting);
+  return use([](const ContactLaw&) { return dem::NoRolling{}; });
+}
+
+dem::Cohesion cohesionOf(const ContactLaw& law) {
+  const Adhesion pull = law.adhesion.value_or(Adhesion{});
+  return {pull.force, pull.stiffness, pull.pressure, pull.work};
+}
+/// Where only others of the table are wet, a bridge that does not pull.
+dem::LiquidBridge bridgeOf(const ContactLaw& law) {
+  constexpr double dropletVolume = 1e-30;
+  if (!law.liquidBridge) return {0.0, dropletVolume, 0.0};
+  const LiquidBridge& bridge = *law.liquidBridge;
+  return {bridge.surfaceTension, bridge.volume, bridge.contactAngle};
+}
+
+bool isWet(const ContactLaw& law) { return law.liquidBridge.has_value(); }
+bool isSticky(const ContactLaw& law) { return law.adhesion.has_value(); }
+
+/// The same with what pulls. Elastic-plastic grains have no liquid bridges.
+template <class Normal, class Use>
+auto withPull(const Table& table, const Use& use) {
+  if constexpr (!std::is_same_v<Normal, dem::ElasticPlastic>)
+    if (table.any(isWet)) return use(bridgeOf);
+  if (table.any(isSticky)) return use(cohesionOf);
+  return use([](const ContactLaw&) { return dem::NoAdhesion{}; });
+}
+
+/// The parts that some law of the table has, for all of them.
+template <class Normal, class Tangential, class PartsOf>
+std::shared_ptr<const dem::ContactLaws> withParts(const Table& table, const PartsOf& partsOf) {
+  const auto make = [&]<class Across>(const Across&, const auto& rollingOf, const auto& pullOf) {
+    return dem::makeContactLaws(dem::makeLawTable(table.rows, [&](int a, int b) {
+      const Entry& entry = table.at(a, b);
+      const auto [normal, tangential] = atPlace(entry.law->where, [&] { return partsOf(entry); });
+      const auto rolling = rollingOf(*entry.law);
+      const auto pull = pullOf(*entry.law);
+      using Law = dem::ContactLaw<Normal, Across, std::decay_t<decltype(rolling)>, std::decay_t<decltype(pull)>>;
+      if constexpr (std::is_same_v<Across, Tangential>)
+        return Law{normal, tangential, rolling, pull};
+      else
+        return Law{normal, {}, rolling, pull};
+    }));
+  };
+  const bool isSmooth = !table.any([](const ContactLaw& law) {
+    return law.friction > 0.0 || law.rolling.has_value() || law.twisting.has_value() || isWet(law);
+  });
+  if (isSmooth)
+    return withPull<dem::ElasticPlastic>(table, [&](const auto& pullOf) {  // without bridges
+      return make(
+          dem::NoTangential{}, [](const ContactLaw&) { return dem::NoRolling{}; }, pullOf);
     });
-  if (rolls)
-    return make([&](const Normal& n, const Tangential& t, const ContactLaw& law) {
-      return dem::ContactLaw<Normal, Tangential, RollingResistance>{n, t, rolling(law)};
-    });
-  if (twists)
-    return make([&](const Normal& n, const Tangential& t, const ContactLaw& law) {
-      return dem::ContactLaw<Normal, Tangential, TwistingResistance>{n, t, twisting(law)};
-    });
-  if (rubs)
-    return make([](const Normal& n, const Tangential& t, const ContactLaw&) {
-      return dem::ContactLaw<Normal, Tangential>{n, t};
-    });
-  return make([](const Normal& n, const Tangential&, const ContactLaw&) { return dem::ContactLaw<Normal>{n}; });
+  return withRolling(table, [&](const auto& rollingOf) {
+    return withPull<Normal>(table, [&](const auto& pullOf) { return make(Tangential{}, rollingOf, pullOf); });
+  });
 }
 
 auto partsOf(const LinearContact& linear, const Entry& entry) {
@@ -96,6 +132,16 @@ auto partsOf(const HertzContact& hertz, const Entry& entry) {
   return std::pair{both.normal, both.tangential};
 }
 
+auto partsOf(const ElasticPlasticContact& springs, const Entry& entry) {
+  const ContactLaw& law = *entry.law;
+  return std::pair{
+      dem::ElasticPlastic{springs.stiffness, springs.unloadingStiffness, springs.cohesionStiffness,
+                          springs.dampingRatio},
+      dem::TangentialSpring{.stiffness = springs.tangentialStiffness.value_or(2.0 / 7.0 * springs.stiffness),
+                            .friction = law.friction,
+                            .dampingRatio = law.tangentialDampingRatio}};
+}
+
 template <class Kind, class Normal, class Tangential>
 std::shared_ptr<const dem::ContactLaws> lawsOf(const Table& table) {
   return withParts<Normal, Tangential>(
@@ -105,13 +151,49 @@ std::shared_ptr<const dem::ContactLaws> lawsOf(const Table& table) {
 std::shared_ptr<const dem::ContactLaws> lawsOf(const Table& table) {
   if (std::holds_alternative<LinearContact>(table.entries.front().law->normal))
     return lawsOf<LinearContact, dem::LinearSpringDashpot, dem::TangentialSpring>(table);
+  if (std::holds_alternative<ElasticPlasticContact>(table.entries.front().law->normal))
+    return lawsOf<ElasticPlasticContact, dem::ElasticPlastic, dem::TangentialSpring>(table);
   return lawsOf<HertzContact, dem::HertzDashpot, dem::MindlinSpring>(table);
 }
 
+/// What cannot be in one law.
+void requirePossible(const ContactLaw& law) {
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    throw InputError(what, law.where, remedy);
+  };
+  if (law.adhesion && law.liquidBridge)
+    refuse("a contact has adhesion and a liquid bridge", "leave one of them out: a bridge pulls touching grains too");
+  const auto* const linear = std::get_if<LinearContact>(&law.normal);
+  if (linear && linear->bonded && (law.adhesion || law.liquidBridge))
+    refuse("bonded springs cannot have adhesion or liquid bridges, as they pull already", "leave one of them out");
+  if (linear && law.adhesion && law.adhesion->stiffness >= linear->stiffness)
+    refuse("the adhesion grows faster than the spring: grains would sink into each other",
+           "give adhesion.stiffness a value below that of the contact");
+  const dem::Cohesion pull = cohesionOf(law);
+  if (law.adhesion && pull.force + pull.stiffness + pull.pressure + pull.work == 0.0)
+    refuse("the adhesion is zero", "give it a force, stiffness, pressure or work, or leave it out");
+  const auto* const springs = std::get_if<ElasticPlasticContact>(&law.normal);
+  if (springs && law.liquidBridge)
+    refuse("elastic-plastic contacts cannot have liquid bridges", "write \"law\": \"linear\", or give it adhesion");
+  if (springs && law.restitution != 1.0)
+    refuse("an elastic-plastic contact has the restitution √(stiffness/unloading_stiffness) = " +
+               formatNumber(std::sqrt(springs->stiffness / springs->unloadingStiffness)),
+           "leave restitution out");
+}
+
 double stiffnessOf(const LinearContact& linear, const Entry&, double) { return linear.stiffness; }
+double stiffnessOf(const ElasticPlasticContact& springs, const Entry&, double) { return springs.unloadingStiffness; }
 double stiffnessOf(const HertzContact& hertz, const Entry& entry, double radius) {
   const double modulus = dem::effectiveModulus(materialOf(hertz), materialOf(entry.second ? *entry.second : hertz));
   return 2.0 * modulus * std::sqrt(0.5 * radius * 0.05 * radius);
+}
+
+/// Under slowly growing weight.
+double softnessOf(const auto& kind, const Entry& entry, double radius) {
+  if constexpr (requires { kind.unloadingStiffness; })
+    return kind.stiffness;
+  else
+    return stiffnessOf(kind, entry, radius);
 }
 
 /// Names of contact materials; the first, of what names none, is empty.
@@ -144,9 +226,13 @@ Meeting meetingIn(const Scene& scene) {
 }
 
 void requireAlike(const ContactLaw& law, const ContactLaw& first) {
-  if (law.normal.index() == first.normal.index()) return;
-  throw InputError("linear and Hertz laws cannot be mixed in one scene", law.where,
-                   std::string("write \"law\": \"").append(first.normal.index() == 0 ? "linear\"" : "Hertz\""));
+  static const std::array names{"linear", "Hertz", "elastic-plastic"};
+  const std::string own = names.at(law.normal.index()), others = names.at(first.normal.index());
+  if (own != others)
+    throw InputError(others + " and " + own + " laws cannot be mixed in one scene", law.where,
+                     "write \"law\": \"" + others + "\"");
+  if ((isWet(law) && isSticky(first)) || (isWet(first) && isSticky(law)))
+    throw InputError("adhesion and liquid bridges cannot be mixed in one scene", law.where, "take one for all pairs");
 }
 
 void requireBondedAlone(const Scene& scene) {
@@ -166,6 +252,23 @@ void requireBondedAlone(const Scene& scene) {
                      "leave bonded or insertions out");
 }
 
+bool hasDents(const ContactLaw& law) { return std::holds_alternative<ElasticPlasticContact>(law.normal); }
+
+/// Where facets share a contact, the dent of each would grow with the way of the contact over them.
+void requireDentsWithoutFacets(const Scene& scene) {
+  const bool any = (scene.contact && hasDents(*scene.contact)) ||
+                   std::ranges::any_of(scene.contacts, [](const PairLaw& pair) { return hasDents(pair.law); });
+  for (const Wall& wall : scene.walls)
+    if (any && std::holds_alternative<SurfaceFile>(wall.shape))
+      throw InputError("elastic-plastic contacts do not keep their energy on facets", wall.where,
+                       "take another law, or walls without facets: planes, boxes, cylinders, spheres");
+  for (const Coupling& coupling : scene.couplings)
+    if (const auto* const surface = std::get_if<SurfaceContact>(&coupling.kind);
+        surface && (surface->contact ? hasDents(*surface->contact) : any))
+      throw InputError("elastic-plastic contacts do not keep their energy on facets", coupling.where,
+                       "give the coupling a contact with another law");
+}
+
 void put(Table& table, const PairLaw& pair, const std::vector<std::string>& rows) {
   const auto row = [&](const std::string& name) {
     return static_cast<std::size_t>(std::find(rows.begin(), rows.end(), name) - rows.begin());
@@ -174,7 +277,7 @@ void put(Table& table, const PairLaw& pair, const std::vector<std::string>& rows
   if (table.entries[a * n + b].law)
     throw InputError("the law between \"" + pair.first + "\" and \"" + pair.second + "\" is there twice",
                      pair.law.where, "leave one of them out");
-  if (pair.ofSecond && std::holds_alternative<LinearContact>(pair.law.normal))
+  if (pair.ofSecond && !std::holds_alternative<HertzContact>(pair.law.normal))
     throw InputError("a linear spring has no second modulus", pair.law.where, "leave \"second\" out");
   table.entries[a * n + b] = table.entries[b * n + a] = {&pair.law, pair.ofSecond ? &*pair.ofSecond : nullptr};
 }
@@ -186,7 +289,9 @@ Table tableOf(const Scene& scene) {
   if (rows.size() > 256)
     throw InputError("more than 255 contact materials", scene.contacts.back().law.where, "take fewer");
   const ContactLaw& first = scene.contact ? *scene.contact : scene.contacts.front().law;
+  requirePossible(first);
   for (const PairLaw& pair : scene.contacts) {
+    requirePossible(pair.law);
     requireAlike(pair.law, first);
     put(table, pair, rows);
   }
@@ -227,11 +332,13 @@ std::string namesOf(const std::vector<std::string>& rows, int a, int b) {
 }  // namespace
 
 std::shared_ptr<const dem::ContactLaws> makeLaws(const ContactLaw& law) {
+  requirePossible(law);
   return atPlace(law.where, [&] { return lawsOf(Table{1, std::vector<Entry>{Entry{&law}}}); });
 }
 
 std::shared_ptr<const dem::ContactLaws> makeLaws(const Scene& scene) {
   requireBondedAlone(scene);
+  requireDentsWithoutFacets(scene);
   const Table table = tableOf(scene);
   return atPlace(table.entries.front().law->where, [&] { return lawsOf(table); });
 }
@@ -250,7 +357,7 @@ double softestSpring(const Scene& scene, int row, double radius) {
   double softest = std::numeric_limits<double>::infinity();
   for (int other = 0; other < table.rows; ++other) {
     const Entry& entry = table.at(row, other);
-    const auto of = [&](const auto& kind) { return stiffnessOf(kind, entry, radius); };
+    const auto of = [&](const auto& kind) { return softnessOf(kind, entry, radius); };
     softest = std::min(softest, std::visit(of, entry.law->normal));
   }
   return softest;
@@ -277,8 +384,8 @@ Impact briefestImpact(const Scene& scene, const dem::Particles& particles) {
   for (std::size_t i = 0; i < particles.size(); ++i)
     look(particles.material.empty() ? 0 : particles.material[i], particles.radius[i], particles.mass[i]);
   for (const Insertion& in : scene.insertions) {
-    const double r = in.radius.smallest;
-    look(contactRow(scene, in.contactMaterial), r, in.density * 4.0 / 3.0 * std::numbers::pi * r * r * r);
+    const Entering grains = enteringOf(in);
+    look(contactRow(scene, in.contactMaterial), grains.smallest, grains.lightest);
   }
   return briefest;
 }

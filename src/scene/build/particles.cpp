@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/checkpoint.hpp"
@@ -12,6 +11,7 @@
 #include "keys/advice.hpp"
 #include "parts.hpp"
 #include "run/checkpoints.hpp"
+#include "sizes.hpp"
 #include "warnings/warnings.hpp"
 
 namespace dovetail::scene {
@@ -54,12 +54,11 @@ void add(const Target& to, const Lattice& lattice) {
 }
 
 void add(const Target& to, const RandomPacking& packing) {
-  const auto [least, most] = packing.radius;  // equally frequent between these
-  const double meanCube = 0.25 * (least + most) * (least * least + most * most);
-  requireMemoryIn(packing.box, std::cbrt(4.0 / 3.0 * std::numbers::pi * meanCube / packing.solidFraction));
+  const dem::Sizes sizes = sizesOf(packing.radius);
+  dem::validate(sizes);
+  requireMemoryIn(packing.box, std::cbrt(dem::meanVolume(sizes) / packing.solidFraction));
   dem::PackingReport report;
-  const dem::Packing spheres = dem::growPacking(dem::UniformSizes{packing.radius.smallest, packing.radius.largest},
-                                                spaceOf(packing.box, to.scene),
+  const dem::Packing spheres = dem::growPacking(sizes, spaceOf(packing.box, to.scene),
                                                 {.solidFraction = packing.solidFraction,
                                                  .overlap = packing.overlap,
                                                  .seed = static_cast<std::uint64_t>(packing.seed)},
@@ -77,10 +76,15 @@ void add(const Target& to, const RandomPacking& packing) {
   dem::addPacking(to.grains.particles, spheres, {packing.density}, to.group.velocity);
 }
 
+void add(const Target& to, const MovingSphere& sphere, double density) {
+  dem::Particles& particles = to.grains.particles;
+  dem::addParticle(particles, sphere.at, to.group.velocity + sphere.velocity, sphere.radius, dem::Density{density});
+  if (norm(sphere.spin) == 0.0) return;
+  dem::switchOnRotation(particles);
+  particles.omega.back() = sphere.spin;
+}
 void add(const Target& to, const SphereList& list) {
-  for (const MovingSphere& sphere : list.spheres)
-    dem::addParticle(to.grains.particles, sphere.at, to.group.velocity + sphere.velocity, sphere.radius,
-                     dem::Density{list.density});
+  for (const MovingSphere& sphere : list.spheres) add(to, sphere, list.density);
 }
 
 void add(const Target& to, const SphereFrame& from) {
@@ -102,11 +106,12 @@ void add(const Target& to, const GrainsOfState& from) {
 /// Columns that nobody knows, or that want others, are refused: what they say would be lost.
 void requireColumns(const io::TimeSeries& table, const std::string& file) {
   static const std::vector<std::string> needed = {"x_m", "y_m", "z_m", "radius_m"},
-                                        velocity = {"vx_m_per_s", "vy_m_per_s", "vz_m_per_s"};
+                                        velocity = {"vx_m_per_s", "vy_m_per_s", "vz_m_per_s"},
+                                        spin = {"wx_rad_per_s", "wy_rad_per_s", "wz_rad_per_s"};
   const std::vector<std::string>& names = table.names();
   const auto has = [&](const std::string& name) { return std::find(names.begin(), names.end(), name) != names.end(); };
   std::vector<std::string> known = needed;
-  known.insert(known.end(), velocity.begin(), velocity.end());
+  for (const auto& three : {velocity, spin}) known.insert(known.end(), three.begin(), three.end());
   std::vector<std::string> missing;
   std::copy_if(known.begin(), known.end(), std::back_inserter(missing), [&](const auto& name) { return !has(name); });
   for (const std::string& name : names)
@@ -115,16 +120,20 @@ void requireColumns(const io::TimeSeries& table, const std::string& file) {
       throw InputError("the table has a column \"" + name + "\", which is unknown", file,
                        near.empty()
                            ? "leave it out; spheres have x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, "
-                             "vy_m_per_s, vz_m_per_s, and a density and material from the scene"
+                             "vy_m_per_s, vz_m_per_s, and likewise wx_rad_per_s, wy_rad_per_s, wz_rad_per_s, and a "
+                             "density and material from the scene"
                            : "write \"" + near + "\" (values in its unit)");
     }
   for (const std::string& name : needed)
     if (!has(name)) throw InputError("the table has no column \"" + name + "\"", file, "add it");
-  const auto given = std::find_if(velocity.begin(), velocity.end(), has);
-  const auto absent = std::find_if_not(velocity.begin(), velocity.end(), has);
-  if (given != velocity.end() && absent != velocity.end())
-    throw InputError("the table has a column \"" + *given + "\", but no \"" + *absent + "\"", file,
-                     "give all three velocities, 0 where there is none");
+  for (const auto& three : {velocity, spin}) {
+    const auto given = std::find_if(three.begin(), three.end(), has);
+    const auto absent = std::find_if_not(three.begin(), three.end(), has);
+    if (given != three.end() && absent != three.end())
+      throw InputError("the table has a column \"" + *given + "\", but no \"" + *absent + "\"", file,
+                       three == spin ? "give all three spins, 0 where there is none"
+                                     : "give all three velocities, 0 where there is none");
+  }
   if (table.rows() == 0) throw InputError("the table has no rows", file, "give one a sphere, or leave the table out");
 }
 
@@ -133,17 +142,27 @@ void add(const Target& to, const SphereFile& from) {
   const io::TimeSeries& table = read.series;
   requireColumns(table, from.file);
   const auto x = table.column("x_m"), y = table.column("y_m"), z = table.column("z_m"), r = table.column("radius_m");
-  std::array<std::span<const double>, 3> v;
-  const std::vector<std::string>& names = table.names();
-  if (std::find(names.begin(), names.end(), "vx_m_per_s") != names.end())
-    v = {table.column("vx_m_per_s"), table.column("vy_m_per_s"), table.column("vz_m_per_s")};
-  for (std::size_t i = 0; i < table.rows(); ++i) {
-    const Vec3 own = v[0].empty() ? Vec3{} : Vec3{v[0][i], v[1][i], v[2][i]};
+  const auto vectorsOf = [&](const std::string& begin, const std::string& unit) {
+    const std::vector<std::string>& names = table.names();
+    std::vector<Vec3> all(table.rows());
+    if (std::find(names.begin(), names.end(), begin + "x" + unit) == names.end()) return all;
+    for (int c = 0; c < 3; ++c) {
+      const auto column = table.column(begin + "xyz"[c] + unit);
+      for (std::size_t i = 0; i < all.size(); ++i) all[i][c] = column[i];
+    }
+    return all;
+  };
+  const std::vector<Vec3> velocity = vectorsOf("v", "_m_per_s"), spin = vectorsOf("w", "_rad_per_s");
+  for (std::size_t i = 0; i < table.rows(); ++i)
     atPlace(from.file + ", line " + std::to_string(read.line[i]), [&] {
-      dem::addParticle(to.grains.particles, {x[i], y[i], z[i]}, to.group.velocity + own, r[i],
-                       dem::Density{from.density});
+      add(to, MovingSphere{{{x[i], y[i], z[i]}, r[i]}, velocity[i], spin[i]}, from.density);
     });
-  }
+}
+
+void addSpin(dem::Particles& particles, std::size_t first, const Vec3& spin) {
+  if (norm(spin) == 0.0) return;
+  dem::switchOnRotation(particles);
+  for (std::size_t i = first; i < particles.size(); ++i) particles.omega[i] += spin;
 }
 
 }  // namespace
@@ -162,6 +181,7 @@ Groups addParticles(dem::Model& grains, const Scene& scene, std::vector<std::str
       const std::size_t first = grains.particles.size();
       std::visit([&](const auto& source) { add({grains, group, scene, notes}, source); }, group.from);
       setContactMaterial(grains.particles, first, contactRow(scene, group.contactMaterial));
+      addSpin(grains.particles, first, group.spin);
       if (group.name.empty()) return;
       const auto& ids = grains.particles.id;
       const bool isNew =

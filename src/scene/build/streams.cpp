@@ -1,8 +1,10 @@
 // Clumps, insertions and outlets of a scene.
 #include "dovetail/dem/setup/streams.hpp"
 
+#include "dovetail/core/finite.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "parts.hpp"
+#include "sizes.hpp"
 
 namespace dovetail::scene {
 
@@ -20,17 +22,38 @@ void add(dem::Model& grains, const Clump& clump, const Scene& scene) {
   setContactMaterial(grains.particles, first, contactRow(scene, clump.contactMaterial));
 }
 
+void requireOneOfEach(const Insertion& insertion) {
+  if (insertion.numberPerSecond.has_value() + insertion.massPerSecond.has_value() + insertion.replacesLeavers != 1)
+    throw InputError("an insertion needs one rate", "",
+                     "give one of number_per_second, mass_per_second and replaces_leavers");
+  if (insertion.radius.has_value() == !insertion.clumps.empty())
+    throw InputError(insertion.radius ? "an insertion has a radius and clumps" : "an insertion has no grains", "",
+                     "give it radius, for spheres, or clumps");
+  if (insertion.until && *insertion.until <= insertion.from)
+    throw InputError("the insertion ends at " + formatNumber(*insertion.until) + " s, and begins at " +
+                         formatNumber(insertion.from) + " s",
+                     "", "give \"until\" a time after \"from\"");
+}
+
 void add(dem::Model& grains, const Insertion& insertion, const Scene& scene) {
-  if (insertion.numberPerSecond.has_value() == insertion.massPerSecond.has_value())
-    throw InputError("an insertion needs one rate", "", "give number_per_second or mass_per_second");
-  dem::addInsertion(grains, {.region = insertion.region,
-                             .sizes = dem::UniformSizes{insertion.radius.smallest, insertion.radius.largest},
-                             .density = {insertion.density},
-                             .velocity = insertion.velocity,
-                             .material = contactRow(scene, insertion.contactMaterial),
-                             .numberPerSecond = insertion.numberPerSecond.value_or(0.0),
-                             .massPerSecond = insertion.massPerSecond.value_or(0.0),
-                             .seed = static_cast<std::uint64_t>(insertion.seed)});
+  requireOneOfEach(insertion);
+  dem::InsertionOptions options{.region = insertion.region,
+                                .sizes = insertion.radius ? sizesOf(*insertion.radius) : dem::Sizes{},
+                                .density = {insertion.density},
+                                .shapes = shapesOf(insertion),
+                                .velocity = insertion.velocity,
+                                .spin = insertion.spin,
+                                .material = contactRow(scene, insertion.contactMaterial),
+                                .numberPerSecond = insertion.numberPerSecond.value_or(0.0),
+                                .massPerSecond = insertion.massPerSecond.value_or(0.0),
+                                .replacesLeavers = insertion.replacesLeavers,
+                                .from = insertion.from,
+                                .seed = static_cast<std::uint64_t>(insertion.seed)};
+  if (insertion.until) options.until = *insertion.until;
+  if (insertion.totalNumber > 0) options.totalNumber = insertion.totalNumber;
+  if (insertion.totalMass) options.totalMass = *insertion.totalMass;
+  if (norm(insertion.spin) > 0.0) dem::switchOnRotation(grains.particles);
+  dem::addInsertion(grains, options);
 }
 
 }  // namespace

@@ -26,6 +26,14 @@ void describe(Fields& f, Domain& v) {
   f.choice({"escape", "a grain that leaves the box ends the run, or is removed"}, v.removes, policies);
 }
 
+void describe(Fields& f, Damping& v) {
+  f.where(v.where);
+  f.number({"rate", "viscous: force over momentum, and moment over angular momentum, of all grains"}, v.rate,
+           notNegative(unit::rate));
+  f.number({"local", "fraction of each component of force and moment that opposes the motion (non-viscous)"}, v.local,
+           between(0.0, 1.0, false, true));
+}
+
 // ---- the run
 
 void describe(Fields& f, Relax& v) {
@@ -76,6 +84,7 @@ void describe(Fields& f, Scene& v) {
                 "have fewer than 100 letters, digits and '_', with a letter first"},
                v.parameters);
   f.vector({"gravity", "acceleration"}, v.gravity, unit::acceleration);
+  f.object({"damping", "of the motion of all grains and clumps, beside that of contacts"}, v.damping);
   f.object({"contact", "law of contacts between grains, with walls and with solids"}, v.contact);
   f.list({"contacts", "laws of pairs of contact materials; all other pairs have the law of \"contact\""}, v.contacts);
   f.object({"periodic", "periodic space"}, v.periodic);

@@ -1,56 +1,10 @@
-// Keys of grains and of what acts on them.
+// Keys of grains and of what acts on them; keys_contacts.cpp and keys_sizes.cpp have those of contacts and sizes.
 #include "keys.hpp"
 
 namespace dovetail::scene {
 
-// ---- contacts
-
-void describe(Fields& f, Rolling& v) {
-  f.number({"friction", "coefficient: largest moment over (effective radius × normal force)"}, v.friction,
-           notNegative(unit::none));
-  f.number({"stiffness_ratio", "angular stiffness over (normal stiffness × effective radius²)"}, v.stiffnessRatio,
-           positive(unit::none));
-  f.number({"damping_ratio", "the same ratio of the damping coefficients"}, v.dampingRatio, notNegative(unit::none));
-}
-void describe(Fields& f, LinearContact& v) {
-  f.number({"stiffness", "of the normal spring"}, v.stiffness, positive(unit::stiffness));
-  f.number({"tangential_stiffness", "of the tangential spring; 2/7 of the normal one if not given"},
-           v.tangentialStiffness, positive(unit::stiffness));
-  f.flag({"bonded", "contacts at the start are bonded springs, as in a lattice; no other contacts form"}, v.bonded);
-  f.flag({"tension",
-          "whether the normal force may be tensile while grains separate; the restitution is the same either way"},
-         v.tension);
-}
-void describe(Fields& f, HertzContact& v) {
-  young(f, v.youngsModulus);
-  poisson(f, v.poissonRatio);
-}
-void describe(Fields& f, ContactLaw& v) {
-  static constexpr const char* laws[] = {"linear", "Hertz"};
-  f.where(v.where);
-  f.oneOf({"law", "normal force: a linear spring, or Hertz's with Mindlin's tangential stiffness"}, v.normal, laws);
-  f.number({"restitution", "speed after a normal impact over speed before"}, v.restitution, between(0.0, 1.0, true));
-  f.number({"friction", "Coulomb's coefficient"}, v.friction, notNegative(unit::none));
-  f.number({"tangential_damping_ratio", "tangential over normal damping coefficient"}, v.tangentialDampingRatio,
-           notNegative(unit::none));
-  f.object({"rolling", "resistance to rolling"}, v.rolling);
-  f.object({"twisting", "resistance to twisting"}, v.twisting);
-}
-void describe(Fields& f, PairLaw& v) {
-  f.text(
-      {"between", "first contact material: a name, for \"contact_material\" of grains, walls and surfaces of solids"},
-      v.first, true);
-  f.text({"and", "second contact material, which may be the first"}, v.second, true);
-  describe(f, v.law);
-  f.object({"second", "elastic constants of the second material (Hertz); those of the first if not given"}, v.ofSecond);
-}
-
 // ---- grains
 
-void describe(Fields& f, SizeRange& v) {
-  f.number({"smallest", "radius"}, v.smallest, positive(unit::length));
-  f.number({"largest", "radius; radii are distributed uniformly between the two"}, v.largest, positive(unit::length));
-}
 void describe(Fields& f, Lattice& v) {
   static constexpr const char* kinds[] = {"simple-cubic", "body-centred", "face-centred", "hexagonal"};
   f.choice({"lattice", "type of the lattice"}, v.kind, kinds);
@@ -62,7 +16,7 @@ void describe(Fields& f, Lattice& v) {
 }
 void describe(Fields& f, RandomPacking& v) {
   f.box({"box", "that is filled; where it spans a period, the packing is periodic"}, v.box);
-  f.object({"radius", "range of radii"}, v.radius);
+  f.object({"radius", "of the spheres"}, v.radius);
   f.number({"solid_fraction", "volume of the spheres over that of the box"}, v.solidFraction,
            between(0.0, 0.74, true, true));
   f.number({"overlap", "largest overlap in the packing, over the smaller radius"}, v.overlap, between(0.0, 0.1, true));
@@ -76,13 +30,16 @@ void describe(Fields& f, Sphere& v) {
 void describe(Fields& f, MovingSphere& v) {
   describe(f, static_cast<Sphere&>(v));
   velocity(f, v.velocity, "at the start");
+  f.vector({"spin", "angular velocity at the start"}, v.spin, unit::spin);
 }
 void describe(Fields& f, SphereList& v) {
   f.list({"spheres", "centre and radius of each"}, v.spheres, true);
   density(f, v.density);
 }
 void describe(Fields& f, SphereFile& v) {
-  f.file({"file", "CSV with columns x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, vy_m_per_s, vz_m_per_s"},
+  f.file({"file",
+          "CSV with columns x_m, y_m, z_m, radius_m and, all or none, vx_m_per_s, vy_m_per_s, vz_m_per_s, and likewise "
+          "wx_rad_per_s, wy_rad_per_s, wz_rad_per_s"},
          v.file);
   density(f, v.density);
 }
@@ -105,6 +62,7 @@ void describe(Fields& f, Particles& v) {
   f.text({"name", "of the group, for bonds and drives"}, v.name, false);
   contactMaterial(f, v.contactMaterial);
   velocity(f, v.velocity, "of all grains at the start");
+  f.vector({"spin", "angular velocity of all grains at the start"}, v.spin, unit::spin);
 }
 
 // ---- walls
@@ -164,15 +122,27 @@ void describe(Fields& f, Clump& v) {
   velocity(f, v.velocity, "at the start");
   f.vector({"spin", "at the start"}, v.spin, unit::spin);
 }
+void describe(Fields& f, ClumpKind& v) { f.list({"spheres", "of the clump, in its own coordinates"}, v.spheres, true); }
 void describe(Fields& f, Insertion& v) {
   f.where(v.where);
-  f.box({"region", "in which whole spheres are inserted where they touch nothing"}, v.region);
-  f.object({"radius", "range of radii"}, v.radius);
+  f.box({"region", "in which whole grains are inserted where they touch nothing"}, v.region);
+  f.object({"radius", "of spheres; this or clumps"}, v.radius);
+  f.list({"clumps", "kinds of clumps, each as often, turned at random; this or radius"}, v.clumps);
   contactMaterial(f, v.contactMaterial);
   density(f, v.density);
   velocity(f, v.velocity, "of inserted grains");
-  f.number({"number_per_second", "rate; this or mass_per_second"}, v.numberPerSecond, positive(unit::rate));
-  f.number({"mass_per_second", "rate; this or number_per_second"}, v.massPerSecond, positive(unit::massRate));
+  f.vector({"spin", "angular velocity of inserted grains"}, v.spin, unit::spin);
+  f.number({"number_per_second", "rate; this, mass_per_second or replaces_leavers"}, v.numberPerSecond,
+           positive(unit::rate));
+  f.number({"mass_per_second", "rate; this, number_per_second or replaces_leavers"}, v.massPerSecond,
+           positive(unit::massRate));
+  f.flag({"replaces_leavers", "one enters for each grain that leaves the scene, in place of a rate"},
+         v.replacesLeavers);
+  f.number({"from", "time at which it begins, since the start of the run"}, v.from, notNegative(unit::time));
+  f.number({"until", "time at which it ends; if not given, it goes on"}, v.until, positive(unit::time));
+  f.integer({"total_number", "it ends when so many grains have entered; 0: no limit"}, v.totalNumber, 0, many);
+  f.number({"total_mass", "it ends when this has entered, to half the mass of a grain"}, v.totalMass,
+           positive(unit::mass));
   f.integer({"seed", "the same seed gives the same grains"}, v.seed, 0, anySeed);
 }
 void describe(Fields& f, Outlet& v) {

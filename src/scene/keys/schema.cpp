@@ -96,9 +96,11 @@ public:
   }
 
 protected:
-  std::size_t kindOf(Key key, std::size_t, Words names) override {
+  std::size_t kindOf(Key key, std::size_t now, Words names, bool needed) override {
     kinds = names.size();
-    add(key, {{"const", names[kind_]}}, true);
+    const bool spared = !needed && kind_ == now;
+    Json& entry = add(key, {{"const", names[kind_]}}, !spared);
+    if (spared) entry["default"] = names[kind_];
     return kind_;
   }
   bool optionalPart(Key, bool) override { return true; }
@@ -216,8 +218,8 @@ std::vector<Row> rowsOf(const Json& part) {
     for (const auto& [name, key] : alternative["properties"].items()) {
       const bool must = std::find(needed.begin(), needed.end(), name) != needed.end();
       auto row = std::find_if(rows.begin(), rows.end(), [&, &name = name, &key = key](const Row& one) {
-        return one.name == name && one.needed == must &&
-               (one.key == key || (one.key.contains("const") && key.contains("const")));
+        return one.name == name &&
+               ((one.needed == must && one.key == key) || (one.key.contains("const") && key.contains("const")));
       });
       if (row == rows.end()) {
         while (next != rows.end() && alternative["properties"].value(next->name, Json()) != next->key) ++next;

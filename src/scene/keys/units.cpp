@@ -129,8 +129,8 @@ std::vector<std::string> likelyQuantities(const std::string& whole) {
   for (const Unit& u : units) {
     look(std::string(u.name));
     if (!u.takesPrefix) continue;
-    for (const auto& [prefix, factor] : prefixes) look(std::string(prefix) + std::string(u.name));
-    look(std::string(giga.first) + std::string(u.name));
+    for (const auto& [prefix, factor] : prefixes) look(std::string(prefix).append(u.name));
+    look(std::string(giga.first).append(u.name));
   }
   for (const auto& [other, unit] :
        {std::pair{"sec", "s"}, std::pair{"second", "s"}, std::pair{"seconds", "s"}, std::pair{"meter", "m"},

@@ -155,9 +155,10 @@ public:
   }
 
 protected:
-  std::size_t kindOf(Key key, std::size_t now, Words names) override {
+  std::size_t kindOf(Key key, std::size_t now, Words names, bool needed) override {
     take(key, false);
     const Node* node = node_.find(key.name);
+    if (!node && !needed) return now;
     if (!node) {  // without it all other keys would look unknown
       for (const Node::Member& member : node_.members)
         if (const std::string near = nearest(member.key, {key.name}); !near.empty())

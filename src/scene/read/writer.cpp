@@ -56,7 +56,7 @@ public:
   }
 
 protected:
-  std::size_t kindOf(Key key, std::size_t now, Words names) override {
+  std::size_t kindOf(Key key, std::size_t now, Words names, bool) override {
     json[key.name] = names[now];
     return now;
   }

@@ -1,11 +1,12 @@
 #include "output_cost.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <ostream>
 
 #include "build/parts.hpp"
+#include "build/sizes.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
@@ -21,13 +22,6 @@ double timeOf(const Scene& scene) {
   for (const Stage& stage : scene.stages)
     if (const auto* const run = std::get_if<RunFor>(&stage.kind)) time += run->time;
   return time;
-}
-
-double expectedOf(const Insertion& one, double time) {
-  const auto [least, most] = one.radius;
-  const double meanCube = 0.25 * (least + most) * (least * least + most * most);
-  const double mass = one.density * 4.0 / 3.0 * std::numbers::pi * meanCube;
-  return time * one.numberPerSecond.value_or(one.massPerSecond.value_or(0.0) / mass);
 }
 
 /// @param every  macro steps between two; 0: none
@@ -91,7 +85,7 @@ struct Frames {
 Frames framesOf(const Built& built, const Scene& scene, const Plan& plan) {
   const dem::Model& grains = built.run->grains;
   auto count = static_cast<double>(grains.particles.size());
-  for (const Insertion& one : scene.insertions) count += 0.5 * expectedOf(one, timeOf(scene));
+  for (const Insertion& one : scene.insertions) count += 0.5 * expectedIn(one, timeOf(scene));
   constexpr double head = 2000.0;
   return {timesWritten(plan, scene, plan.frames),
           head + bytesOfGrains(grains, count, scene.output.contents) + bytesOfSolids(built, scene.output.contents)};
@@ -168,19 +162,35 @@ void lookAtTimes(const Scene& scene, double macroStep, Lines& lines) {
 
 void lookAtRates(const Scene& scene, Lines& lines) {
   const double time = timeOf(scene);
-  for (std::size_t k = 0; k < scene.insertions.size() && time > 0.0; ++k)
-    if (const double count = expectedOf(scene.insertions[k], time); count < 1.0)
-      lines.push_back("insertions." + std::to_string(k) + " inserts only " + rounded(count) + " grains in " +
-                      rounded(time) + " s: give it a rate above " + rounded(1.0 / time) +
-                      " per second, or run for longer.");
+  const bool relaxes =
+      std::ranges::any_of(scene.stages, [](const Stage& stage) { return std::holds_alternative<Relax>(stage.kind); });
+  for (std::size_t k = 0; k < scene.insertions.size() && time > 0.0; ++k) {
+    const Insertion& one = scene.insertions[k];
+    const std::string name = "insertions." + std::to_string(k);
+    const double total = totalOf(one), count = expectedIn(one, time);
+    if (one.from >= time && !relaxes)
+      lines.push_back(name + " begins at " + rounded(one.from) + " s, and the run ends at " + rounded(time) +
+                      " s: let it begin earlier, or run for longer.");
+    else if (one.replacesLeavers)
+      continue;
+    else if (count < 1.0)
+      lines.push_back(name + " inserts only " + rounded(count) + " grains in " + rounded(time) +
+                      " s: give it a rate above " + rounded(1.0 / time) + " per second, or run for longer.");
+    else if (std::isfinite(total) && count < 0.99 * total)
+      lines.push_back(name + " inserts only " + rounded(count) + " of its " + rounded(total) +
+                      " grains by the end: give it a higher rate, or more time.");
+  }
 }
 
 }  // namespace
 
 void reportOutput(const Built& built, const Scene& scene, const Plan& plan, std::ostream& log) {
   for (std::size_t k = 0; k < scene.insertions.size(); ++k)
-    log << "insertions." << k << ": about " << rounded(expectedOf(scene.insertions[k], timeOf(scene)))
-        << " grains enter in " << timeOf(scene) << " s, where there is room\n";
+    if (scene.insertions[k].replacesLeavers)
+      log << "insertions." << k << ": as many grains enter as leave, where there is room\n";
+    else
+      log << "insertions." << k << ": about " << rounded(expectedIn(scene.insertions[k], timeOf(scene)))
+          << " grains enter in " << timeOf(scene) << " s, where there is room\n";
   if (plan.series > 0) log << "series: " << timesWritten(plan, scene, plan.series) << " rows\n";
   if (plan.frames == 0) return;
   const Frames frames = framesOf(built, scene, plan);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
-#include <numeric>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -26,6 +26,32 @@ std::string columnOf(const std::string& channel) {
   return name + "_J";
 }
 
+std::vector<const dem::BondTerm*> bondsOf(const Built& built) {
+  return std::as_const(built.run->grains).terms.all<dem::BondTerm>();
+}
+bool grainsLeave(const Built& built) {
+  const dem::Model& grains = built.run->grains;
+  return !grains.terms.all<dem::OutletTerm>().empty() ||
+         (grains.domain && grains.domain->policy == dem::EscapePolicy::remove);
+}
+
+/// What has come, gone and broken so far; columns as columnsOf names them.
+void appendCounts(const Built& built, std::vector<double>& row) {
+  if (const auto insertions = insertionsOf(built); !insertions.empty()) {
+    double refused = 0.0, entered = 0.0, mass = 0.0;
+    for (const dem::Insertion* const one : insertions) {
+      refused += static_cast<double>(one->refused);
+      entered += static_cast<double>(one->inserted);
+      mass += one->insertedMass;
+    }
+    row.insert(row.end(), {refused, entered, mass});
+  }
+  const dem::Exchanged& left = built.run->grains.left;
+  if (grainsLeave(built)) row.insert(row.end(), {static_cast<double>(left.count), left.mass});
+  for (const dem::BondTerm* const term : bondsOf(built))
+    row.insert(row.end(), {static_cast<double>(term->bonds.size()), static_cast<double>(term->bonds.brokenSoFar)});
+}
+
 std::vector<std::string> columnsOf(const std::vector<std::string>& channels, const Built& built,
                                    const std::vector<std::string>& probes) {
   std::vector<std::string> names{"time_s", "particles", "limit_s"};
@@ -35,7 +61,9 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels, con
     names.push_back(name);
   for (const auto& [solid, force] : forcesOnSolids(built))
     for (const char* const axis : {"_x_N", "_y_N", "_z_N"}) names.push_back("on_" + solid + axis);
-  if (!insertionsOf(built).empty()) names.push_back("no_room");
+  if (!insertionsOf(built).empty()) names.insert(names.end(), {"no_room", "entered", "entered_kg"});
+  if (grainsLeave(built)) names.insert(names.end(), {"left", "left_kg"});
+  if (!bondsOf(built).empty()) names.insert(names.end(), {"bonds", "bonds_broken"});
   names.insert(names.end(), probes.begin(), probes.end());
   return names;
 }
@@ -50,7 +78,11 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run, bool loads) {
   for (const char* const later :
        {"dashpots", "friction", "rolling", "left", "entered (minus)", "work of walls and drives (minus)"})
     add(std::string("particles: ") + later);
-  if (!run.grains.terms.all<dem::BondTerm>().empty()) add("particles: fracture");
+  const dem::ContactLaws& laws = *run.grains.laws;
+  const bool pullsApart = laws.reach() > 0.0 && !std::isinf(laws.reach());  // liquid bridges, which rupture
+  if (pullsApart || !run.grains.terms.all<dem::BondTerm>().empty()) add("particles: fracture");
+  if (laws.name().starts_with(dem::ElasticPlastic::name)) add("particles: plastic contacts");
+  if (!run.grains.terms.all<dem::DampingTerm>().empty()) add("particles: damping");
   for (std::size_t s = 0; s < run.solids(); ++s) {
     add(run.solid(s).name + ": supports");
     for (const auto& term : run.solid(s).model->terms)
@@ -144,9 +176,7 @@ void Series::add(Built& built) {
   const Vec3 given = totals.given.total().given.linear;
   for (const Vec3& v : {totals.momentum, given}) row.insert(row.end(), {v.x, v.y, v.z});
   for (const auto& [solid, force] : forcesOnSolids(built)) row.insert(row.end(), {force.x, force.y, force.z});
-  if (const auto insertions = insertionsOf(built); !insertions.empty())
-    row.push_back(std::accumulate(insertions.begin(), insertions.end(), 0.0,
-                                  [](double sum, const auto* one) { return sum + static_cast<double>(one->refused); }));
+  appendCounts(built, row);
   probes_.add(built, row);
   table_.append(row);
   file_.write(table_);

@@ -34,7 +34,7 @@ std::vector<MovingSphere> readSpheres(const std::string& file) {
   const io::SphereTable table = io::readSpheres(file);
   std::vector<MovingSphere> spheres;
   for (std::size_t i = 0; i < table.position.size(); ++i)
-    spheres.push_back({{table.position[i], table.radius[i]}, table.velocity.empty() ? Vec3{} : table.velocity[i]});
+    spheres.push_back({{table.position[i], table.radius[i]}, table.velocity.empty() ? Vec3{} : table.velocity[i], {}});
   return spheres;
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "build/extent.hpp"
+#include "build/sizes.hpp"
 #include "build/time_functions.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/walls.hpp"
@@ -67,7 +68,7 @@ void lookAtProbes(const Built& built, const Scene& scene, Lines& lines) {
 double fractionWithin(const dem::Model& grains, const Insertion& insertion) {
   constexpr int each = 9;
   const std::size_t walls = std::as_const(grains).terms.all<dem::PrimitiveWallTerm>().size();
-  const double r = insertion.radius.smallest;
+  const double r = enteringOf(insertion).smallest;
   const Vec3 lower = insertion.region.lower + Vec3{r, r, r}, edges = insertion.region.upper - Vec3{r, r, r} - lower;
   int within = 0;
   for (int k = 0; k < each * each * each; ++k) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "build/extent.hpp"
+#include "build/sizes.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "warnings.hpp"
@@ -116,7 +117,7 @@ void lookForFalling(const Built& built, const Scene& scene, Lines& lines) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < p.size(); ++i) count += shadows.holds(p.x[i], p.radius[i]) ? 0 : 1;
   const bool entering = std::ranges::any_of(
-      scene.insertions, [&](const Insertion& one) { return shadows.holds(one.region, one.radius.largest); });
+      scene.insertions, [&](const Insertion& one) { return shadows.holds(one.region, enteringOf(one).largest); });
   if (entering || (count == 0 && scene.insertions.empty())) return;
   if (count > 0 && std::ranges::any_of(scene.stages, relaxes))
     lines.push_back(std::to_string(count) + " of " + std::to_string(p.size()) +

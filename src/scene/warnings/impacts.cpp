@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "build/parts.hpp"
+#include "build/sizes.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/impact.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
@@ -32,8 +32,8 @@ std::map<int, Smallest> smallestIn(const Scene& scene, const dem::Particles& p) 
   for (std::size_t i = 0; i < p.size(); ++i)
     offer(p.material.empty() ? 0 : p.material[i], p.radius[i], p.mass[i], p.size() == 1);
   for (const Insertion& in : scene.insertions) {
-    const double r = in.radius.smallest;
-    offer(contactRow(scene, in.contactMaterial), r, in.density * 4.0 / 3.0 * std::numbers::pi * r * r * r, false);
+    const Entering grains = enteringOf(in);
+    offer(contactRow(scene, in.contactMaterial), grains.smallest, grains.lightest, false);
   }
   return smallest;
 }
@@ -60,6 +60,20 @@ double rebound(const std::shared_ptr<const dem::ContactLaws>& laws, const Smalle
   return (m.particles.v[1].x - m.particles.v[0].x) / speed;
 }
 
+/// Restitution is that of repulsion and dashpots alone: sticky grains may stay together.
+std::shared_ptr<const dem::ContactLaws> lawsWithoutPulls(const Scene& scene, const dem::Model& grains) {
+  const auto pulls = [](const ContactLaw& law) { return law.adhesion || law.liquidBridge; };
+  if (!(scene.contact && pulls(*scene.contact)) &&
+      std::ranges::none_of(scene.contacts, [&](const PairLaw& pair) { return pulls(pair.law); }))
+    return grains.laws;
+  Scene repelling;
+  repelling.contact = scene.contact;
+  repelling.contacts = scene.contacts;
+  if (repelling.contact) repelling.contact->adhesion.reset(), repelling.contact->liquidBridge.reset();
+  for (PairLaw& pair : repelling.contacts) pair.law.adhesion.reset(), pair.law.liquidBridge.reset();
+  return makeLaws(repelling);
+}
+
 }  // namespace
 
 Rebound worstRebound(const Built& built, const Scene& scene, double dt) {
@@ -69,10 +83,11 @@ Rebound worstRebound(const Built& built, const Scene& scene, double dt) {
   const double limit = briefestImpact(scene, grains.particles).limit;
   constexpr double fine = 2e-3;  // of an impact: what a step does to its rebound is of its order
   if (dt < fine * limit) return worst;
+  const std::shared_ptr<const dem::ContactLaws> laws = lawsWithoutPulls(scene, grains);
   const auto look = [&](const ContactLaw& law, const Smallest& one, std::array<int, 2> rows) {
     if (!(law.restitution < 0.5)) return;
     for (int phase = 0; phase < 8; ++phase) {
-      const Rebound found{rebound(grains.laws, one, rows, limit, dt, 0.125 * phase), law.restitution};
+      const Rebound found{rebound(laws, one, rows, limit, dt, 0.125 * phase), law.restitution};
       if (found.error() > worst.error()) worst = found;
     }
   };

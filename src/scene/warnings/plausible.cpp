@@ -129,7 +129,7 @@ public:
   void parameters(Key, Parameters&) override {}
 
 protected:
-  std::size_t kindOf(Key, std::size_t now, Words) override { return now; }
+  std::size_t kindOf(Key, std::size_t now, Words, bool) override { return now; }
   bool optionalPart(Key, bool there) override { return there; }
   std::size_t sizeOf(Key, std::size_t now, bool) override { return now; }
   void part(Key key, bool, const std::function<void(Fields&)>& describePart) override {

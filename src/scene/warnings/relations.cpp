@@ -4,6 +4,7 @@
 
 #include "build/extent.hpp"
 #include "build/parts.hpp"
+#include "build/sizes.hpp"
 #include "build/time_functions.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -116,7 +117,7 @@ void lookAtSpring(const std::string& key, const ContactLaw& law, double radius, 
 void lookAtSprings(const Scene& scene, const dem::Particles& p, Lines& lines) {
   double smallest = Extent::nowhere;
   for (const double radius : p.radius) smallest = std::min(smallest, radius);
-  for (const Insertion& one : scene.insertions) smallest = std::min(smallest, one.radius.smallest);
+  for (const Insertion& one : scene.insertions) smallest = std::min(smallest, enteringOf(one).smallest);
   if (scene.contact) lookAtSpring("contact", *scene.contact, smallest, lines);
   for (std::size_t k = 0; k < scene.contacts.size(); ++k)
     lookAtSpring("contacts." + std::to_string(k), scene.contacts[k].law, smallest, lines);
@@ -154,9 +155,16 @@ public:
     if (radius < least_) least_ = radius, leastKey_ = key;
     if (radius > most_) most_ = radius, mostKey_ = key;
   }
-  void add(const std::string& key, const SizeRange& range) {
-    add(key + ".radius.smallest", range.smallest);
-    add(key + ".radius.largest", range.largest);
+  void add(const std::string& key, const Sizes& sizes) {
+    const auto [smallest, largest] = dem::boundsOf(sizesOf(sizes));
+    const bool bounded = sizes.distribution.index() < 3;  // by these keys
+    add(key + (bounded ? ".radius.smallest" : ".radius"), smallest);
+    add(key + (bounded ? ".radius.largest" : ".radius"), largest);
+  }
+  void add(const std::string& key, const Insertion& one) {
+    if (one.radius) return add(key, *one.radius);
+    for (std::size_t k = 0; k < one.clumps.size(); ++k)
+      for (const Sphere& sphere : one.clumps[k].spheres) add(key + ".clumps." + std::to_string(k), sphere.radius);
   }
   void add(const std::string& key, const Particles& one) {
     if (const auto* const lattice = std::get_if<Lattice>(&one.from)) add(key + ".radius", lattice->radius);
@@ -196,7 +204,7 @@ void lookAtRadii(const Scene& scene, Lines& lines) {
   for (std::size_t k = 0; k < scene.particles.size(); ++k)
     radii.add("particles." + std::to_string(k), scene.particles[k]);
   for (std::size_t k = 0; k < scene.insertions.size(); ++k)
-    radii.add("insertions." + std::to_string(k), scene.insertions[k].radius);
+    radii.add("insertions." + std::to_string(k), scene.insertions[k]);
   radii.tell(lines);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "build/parts.hpp"
+#include "build/sizes.hpp"
 #include "build/time_functions.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -122,11 +123,14 @@ void requirePeriods(const dem::Model& grains, const Scene& scene) {
 double largestRadius(const Scene& scene, const dem::Particles& particles) {
   double largest = 0.0;
   for (const double radius : particles.radius) largest = std::max(largest, radius);
-  for (const Insertion& one : scene.insertions) largest = std::max(largest, one.radius.largest);
+  for (const Insertion& one : scene.insertions) largest = std::max(largest, enteringOf(one).largest);
   return largest;
 }
 
-std::string placeText(const Vec3& x) { return "(" + rounded(x.x) + ", " + rounded(x.y) + ", " + rounded(x.z) + ") m"; }
+std::string placeText(const Vec3& x) {
+  std::string text = "(";
+  return text.append(rounded(x.x)).append(", ").append(rounded(x.y)).append(", ").append(rounded(x.z)).append(") m");
+}
 
 void requireTogether(Built& built, const Scene& scene) {
   const dem::Model& grains = built.run->grains;

@@ -1,6 +1,9 @@
 // Particles that enter and leave.
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <numbers>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/setup/insertion.hpp"
 #include "walls/wall_scenes.hpp"
@@ -67,6 +70,32 @@ TEST(Insertion, ByMassAndTheSameForTheSameSeed) {
   EXPECT_GT(a.insertedMass, 15.0);
 }
 
+TEST(Insertion, EndsAtItsTotals) {
+  InsertionOptions settings = shower;
+  settings.totalNumber = 37;
+  Insertion counted = makeInsertion(settings);
+  Particles particles;
+  for (int step = 0; step < 1000; ++step) insertParticles(counted, particles, {}, 1e-3);
+  EXPECT_EQ(counted.inserted, 37);
+  EXPECT_EQ(particles.size(), 37U);
+  EXPECT_TRUE(isComplete(counted));
+  settings.totalNumber = std::numeric_limits<std::int64_t>::max();
+  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+    settings.totalMass = 5.0;
+    settings.seed = seed;
+    Insertion weighed = makeInsertion(settings);
+    Particles others;
+    insertParticles(weighed, others, {}, 2.0);
+    double mass = 0.0;
+    for (const double m : others.mass) mass += m;
+    EXPECT_NEAR(mass, weighed.insertedMass, 1e-12);
+    ASSERT_TRUE(isComplete(weighed));
+    EXPECT_NEAR(mass, 5.0, 0.5 * 1000.0 * boundsOf(settings.sizes).largest * 4.189 * 0.05 * 0.05);
+    const double r = weighed.nextRadius, next = 1000.0 * 4.0 / 3.0 * std::numbers::pi * r * r * r;
+    EXPECT_GE(mass + next - 5.0, 5.0 - mass);  // which would not come closer
+  }
+}
+
 TEST(Insertion, BadSettingsAreRefused) {
   const auto refused = [](auto&& change) {
     InsertionOptions settings = shower;
@@ -83,6 +112,10 @@ TEST(Insertion, BadSettingsAreRefused) {
   refused([](auto& s) { s.density.value = 0.0; });
   refused([](auto& s) { s.region.upper.z = 0.09; });
   refused([](auto& s) { s.tries = 0; });
+  refused([](auto& s) { s.from = -1.0; });
+  refused([](auto& s) { s.until = s.from; });
+  refused([](auto& s) { s.totalNumber = 0; });
+  refused([](auto& s) { s.totalMass = 0.0; });
   refused([](auto& s) { s.velocity.x = std::nan(""); });
 }
 

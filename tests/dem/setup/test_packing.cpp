@@ -73,10 +73,47 @@ TEST(Sizes, AGradingCurveComesBackAsTheMassThatPasses) {
   EXPECT_NEAR(halfway / total, 0.85, 0.01);
 }
 
+TEST(Sizes, MeanVolumesAndBoundsAreThoseOfWhatIsDrawn) {
+  const int n = 200000;
+  for (const Sizes& sizes :
+       {Sizes{UniformSizes{1.0, 3.0}}, Sizes{NormalSizes{1.0, 0.2, 0.9, 1.8}}, Sizes{NormalSizes{1.0, 0.0, 0.5, 2.0}},
+        Sizes{LogNormalSizes{2.0, 0.3, 0.5, 3.0}}, Sizes{SizeClasses{{2.0, 1.0, 1.5}, {1.0, 3.0, 4.0}}},
+        Sizes{GradingCurve{{0.5, 1.0, 1.5, 2.0, 4.0}, {0.0, 0.2, 0.2, 0.7, 1.0}}}}) {
+    RandomStream random(5);
+    double sum = 0.0, squares = 0.0, least = 1e9, most = 0.0;
+    for (int i = 0; i < n; ++i) {
+      const double r = drawRadius(sizes, random), volume = 4.0 / 3.0 * std::numbers::pi * r * r * r;
+      sum += volume / n;
+      squares += volume * volume / n;
+      least = std::min(least, r);
+      most = std::max(most, r);
+    }
+    const double error = std::sqrt(std::max(0.0, squares - sum * sum) / n), rounding = n * 1e-16 * sum;
+    EXPECT_NEAR(meanVolume(sizes), sum, 4.0 * error + 2.0 * rounding) << sizes.index();
+    EXPECT_LE(boundsOf(sizes).smallest, least * (1.0 + 1e-12));
+    EXPECT_GE(boundsOf(sizes).largest, most * (1.0 - 1e-12));
+  }
+  EXPECT_EQ(boundsOf(SizeClasses{{2.0, 1.0, 1.5}, {1.0, 3.0, 4.0}}).smallest, 1.0);
+}
+
+TEST(Sizes, ClassesComeInTheirNumbers) {
+  RandomStream random(3);
+  const SizeClasses sizes{{2.0, 1.0}, {1.0, 3.0}};
+  const int n = 100000;
+  int large = 0;
+  for (int i = 0; i < n; ++i) {
+    const double r = drawRadius(sizes, random);
+    ASSERT_TRUE(r == 1.0 || r == 2.0);
+    large += r == 2.0;
+  }
+  EXPECT_NEAR(static_cast<double>(large) / n, 0.25, 4.0 * std::sqrt(0.25 * 0.75 / n));
+}
+
 TEST(Sizes, BadOnesAreRefused) {
   for (const Sizes& sizes :
        {Sizes{UniformSizes{2.0, 1.0}}, Sizes{UniformSizes{0.0, 1.0}}, Sizes{NormalSizes{1.0, 0.01, 2.0, 3.0}},
-        Sizes{LogNormalSizes{1.0, -0.1, 0.5, 2.0}}, Sizes{GradingCurve{{1.0}, {1.0}}},
+        Sizes{LogNormalSizes{1.0, -0.1, 0.5, 2.0}}, Sizes{SizeClasses{}}, Sizes{SizeClasses{{1.0}, {}}},
+        Sizes{SizeClasses{{1.0}, {0.0}}}, Sizes{SizeClasses{{-1.0}, {1.0}}}, Sizes{GradingCurve{{1.0}, {1.0}}},
         Sizes{GradingCurve{{1.0, 2.0}, {0.1, 1.0}}}, Sizes{GradingCurve{{2.0, 1.0}, {0.0, 1.0}}}})
     EXPECT_THROW(validate(sizes), InputError);
 }

@@ -1,6 +1,7 @@
 // Grains that enter and leave a model while it runs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "../../io/scratch_folder.hpp"
@@ -35,6 +36,23 @@ TEST(Outlets, BookWhatAParticleCarriedToTheLastDigit) {
   EXPECT_NEAR(model.left.momentum.x, 2.0, 1e-15);
   EXPECT_NEAR(model.booked.left, 1.0, 2e-2);  // ½ m v² + m g z of free fall from rest in z
   EXPECT_NEAR(energies(model).balance(), 1.0, 2e-2);
+}
+
+TEST(Insertions, KeepToTheirTimes) {
+  Model model;
+  model.laws = makeContactLaws(ElasticLaw{{.stiffness = 2e4}});
+  const InsertionTerm& stream = addInsertion(model, {.region = {{0, 0, 0}, {9, 9, 9}},
+                                                     .sizes = UniformSizes{0.05, 0.05},
+                                                     .density = {1000.0},
+                                                     .numberPerSecond = 1000.0,
+                                                     .from = 0.0205,
+                                                     .until = 0.0515});
+  for (int step = 1; step <= 80; ++step) {
+    run(model, 1e-3, 1);
+    const double lasted = std::clamp(1e-3 * step - 0.0205, 0.0, 0.031);
+    EXPECT_NEAR(static_cast<double>(stream.insertion.inserted), 1000.0 * lasted, 1.0) << step;
+  }
+  EXPECT_NEAR(static_cast<double>(stream.insertion.inserted), 31.0, 1.0);
 }
 
 /// Grains that fly through a box that repeats and never meet, fast and slow.

@@ -82,9 +82,10 @@ public:
       if (text == words[k]) value = static_cast<T>(k);
   }
   /// Which alternative a variant holds; its keys are in the same object.
+  /// @param needed  false: the key may be left out, and the variant then holds what it does
   template <class... Kinds>
-  void oneOf(Key key, std::variant<Kinds...>& value, Words names) {
-    const std::size_t kind = kindOf(key, value.index(), names);
+  void oneOf(Key key, std::variant<Kinds...>& value, Words names, bool needed = true) {
+    const std::size_t kind = kindOf(key, value.index(), names, needed);
     if (kind != value.index()) emplace(value, kind);
     std::visit([&](auto& alternative) { describe(*this, alternative); }, value);
   }
@@ -105,7 +106,7 @@ public:
   }
 
 protected:
-  virtual std::size_t kindOf(Key key, std::size_t now, Words names) = 0;
+  virtual std::size_t kindOf(Key key, std::size_t now, Words names, bool needed) = 0;
   /// @param always  whether the structure exists even if it is not written
   virtual void part(Key key, bool always, const std::function<void(Fields&)>& describePart) = 0;
   virtual bool optionalPart(Key key, bool there) = 0;

@@ -20,11 +20,27 @@ struct HertzContact {
   double youngsModulus = required;  ///< Pa
   double poissonRatio = required;
 };
+/// See dem::ElasticPlastic.
+struct ElasticPlasticContact {
+  double stiffness = required, unloadingStiffness = required;  ///< N/m, k₁ and k₂
+  double cohesionStiffness = 0.0, dampingRatio = 0.0;          ///< N/m; 1
+  std::optional<double> tangentialStiffness;                   ///< N/m; not given: 2/7 of k₁
+};
+/// See dem::Cohesion.
+struct Adhesion {
+  double force = 0.0, stiffness = 0.0, pressure = 0.0, work = 0.0;  ///< N, N/m, Pa, J/m²
+};
+/// See dem::LiquidBridge.
+struct LiquidBridge {
+  double surfaceTension = required, volume = required, contactAngle = 0.0;  ///< N/m, m³, rad
+};
 /// The law of contacts between grains, and of grains with walls and solids.
 struct ContactLaw {
-  std::variant<LinearContact, HertzContact> normal;
+  std::variant<LinearContact, HertzContact, ElasticPlasticContact> normal;
   double restitution = 1.0, friction = 0.0, tangentialDampingRatio = 0.0;
   std::optional<Rolling> rolling, twisting;
+  std::optional<Adhesion> adhesion;  ///< this or a liquid bridge
+  std::optional<LiquidBridge> liquidBridge;
   std::string where;  ///< in the file, of all structures: for messages
 };
 
@@ -35,8 +51,30 @@ struct PairLaw {
   std::optional<HertzContact> ofSecond;  ///< with Hertz's law; not given: as the first
 };
 
+/// Radii of grains, m; see dem::Sizes.
 struct SizeRange {
-  double smallest = required, largest = required;  ///< radii, m
+  double smallest = required, largest = required;
+};
+struct NormalSizes {
+  double mean = required, deviation = required, smallest = required, largest = required;
+};
+struct LogNormalSizes {
+  double median = required, logDeviation = required, smallest = required, largest = required;
+};
+struct SizeClass {
+  double radius = required, number = 1.0;
+};
+struct SizeClasses {
+  std::vector<SizeClass> classes;
+};
+struct Sieve {
+  double opening = required, passing = required;  ///< m; fraction of the mass
+};
+struct SieveCurve {
+  std::vector<Sieve> sieves;
+};
+struct Sizes {
+  std::variant<SizeRange, NormalSizes, LogNormalSizes, SizeClasses, SieveCurve> distribution;
 };
 /// Data of all sources of spheres.
 struct MadeOf {
@@ -51,7 +89,7 @@ struct Lattice : MadeOf {
 };
 struct RandomPacking : MadeOf {
   geometry::Box box = requiredBox;  ///< m
-  SizeRange radius;
+  Sizes radius;
   double solidFraction = 0.55, overlap = 1e-3;
   std::int64_t seed = 1;
 };
@@ -60,12 +98,12 @@ struct Sphere {
   double radius = required;  ///< m
 };
 struct MovingSphere : Sphere {
-  Vec3 velocity;  ///< m/s
+  Vec3 velocity, spin;  ///< m/s, rad/s
 };
 struct SphereList : MadeOf {
   std::vector<MovingSphere> spheres;
 };
-/// Columns x_m, y_m, z_m, radius_m and, if there, vx_m_per_s, vy_m_per_s, vz_m_per_s.
+/// Columns x_m, y_m, z_m, radius_m and, if there, vx_m_per_s, … and wx_rad_per_s, ….
 struct SphereFile : MadeOf {
   std::string file;
 };
@@ -81,7 +119,7 @@ struct Particles {
   std::variant<Lattice, RandomPacking, SphereList, SphereFile, SphereFrame, GrainsOfState> from;
   std::string name;             ///< of the group, for bonds and drives
   std::string contactMaterial;  ///< empty: that of the law in "contact"
-  Vec3 velocity;                ///< m/s, added to those of single spheres
+  Vec3 velocity, spin;          ///< m/s, rad/s, added to those of single spheres
   std::string where;
 };
 
@@ -127,13 +165,24 @@ struct Clump {
   Vec3 velocity, spin;        ///< m/s, rad/s
   std::string where;
 };
+/// Spheres of a kind of clump, in its own coordinates.
+struct ClumpKind {
+  std::vector<Sphere> spheres;
+};
+/// Of spheres, or of clumps of several kinds.
 struct Insertion {
   geometry::Box region = requiredBox;  ///< m
-  SizeRange radius;
+  std::optional<Sizes> radius;         ///< this or `clumps`
+  std::vector<ClumpKind> clumps;
   std::string contactMaterial;
   double density = required;                             ///< kg/m³
-  Vec3 velocity;                                         ///< m/s
-  std::optional<double> numberPerSecond, massPerSecond;  ///< one of the two; 1/s, kg/s
+  Vec3 velocity, spin;                                   ///< m/s, rad/s
+  std::optional<double> numberPerSecond, massPerSecond;  ///< one of the three; 1/s, kg/s
+  bool replacesLeavers = false;
+  double from = 0.0;                ///< s
+  std::optional<double> until;      ///< s; not given: to the end
+  std::int64_t totalNumber = 0;     ///< 0: no limit
+  std::optional<double> totalMass;  ///< kg
   std::int64_t seed = 1;
   std::string where;
 };

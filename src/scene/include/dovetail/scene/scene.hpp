@@ -84,10 +84,17 @@ struct Output {
   std::string where;
 };
 
+/// Of all grains and clumps, see dem::DampingTerm.
+struct Damping {
+  double rate = 0.0, local = 0.0;  ///< 1/s; 1
+  std::string where;
+};
+
 struct Scene {
   std::string title, version;
   Parameters parameters;  ///< that functions of time use
   Vec3 gravity;           ///< m/s²
+  std::optional<Damping> damping;
   std::optional<ContactLaw> contact;
   std::vector<PairLaw> contacts;
   std::optional<Periodic> periodic;

@@ -64,7 +64,8 @@ struct Bonds {
   std::vector<double> energy;    ///< of the last step: J stored in each
   /// Pairs, the lower number first, whose last bond broke in the last exchange.
   std::vector<std::array<int, 2>> broken;
-  double powerOfBroken = 0.0;  ///< W, that the forces of bonds which broke in the last exchange would have had
+  double powerOfBroken = 0.0;    ///< W, that the forces of bonds which broke in the last exchange would have had
+  std::int64_t brokenSoFar = 0;  ///< bonds, in all exchanges
   BondEnds ends;
 
   std::size_t size() const { return bonds.size(); }

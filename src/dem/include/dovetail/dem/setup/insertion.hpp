@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,8 @@ struct Surroundings {
   std::vector<std::function<const TriangulatedWall&()>> placed{};
 };
 
-/// Inserted particles, their region and rate: one of the two rates is > 0, or particles that leave are replaced.
+/// Inserted particles, their region and rate: one of the two rates is > 0, or particles that leave are replaced. They
+/// enter from `from` until `until`, and until one of the totals has entered.
 struct InsertionOptions {
   geometry::Box region;  ///< m; whole spheres lie in it, but along a periodic axis that it spans all places are free
   Sizes sizes;           ///< of spheres
@@ -37,8 +39,13 @@ struct InsertionOptions {
   double numberPerSecond = 0.0;  ///< spheres or clumps, 1/s
   double massPerSecond = 0.0;    ///< kg/s
   bool replacesLeavers = false;  ///< particles that leave are inserted again, in place of a rate
-  double interval = 0.0;         ///< s, least time between searches for free places. 0: as soon as a particle is due
-  int tries = 50;                ///< places tried for each newcomer before it is refused
+  double from = 0.0;             ///< s, time of the model: see InsertionTerm
+  double until = std::numeric_limits<double>::infinity();  ///< s
+  std::int64_t totalNumber = std::numeric_limits<std::int64_t>::max();
+  /// kg; the last one is left out if that comes closer.
+  double totalMass = std::numeric_limits<double>::infinity();
+  double interval = 0.0;  ///< s, least time between searches for free places. 0: as soon as a particle is due
+  int tries = 50;         ///< places tried for each newcomer before it is refused
   std::uint64_t seed = 1;
 };
 
@@ -56,14 +63,17 @@ struct Insertion {
   double refusedMass = 0.0;   ///< kg
 };
 
-/// @throws InputError if sizes, density, interval or material are not valid, velocity or spin is not finite, not
-/// exactly
-///   one of rates and replacement is given, tries < 1, or the region does not hold the largest sphere or the widest
-///   clump
+/// Whether all that is to enter has entered.
+bool isComplete(const Insertion& insertion);
+
+/// @throws InputError if sizes, density, times, totals, interval or material are not valid, velocity or spin is not
+///   finite, not exactly one of rates and replacement is given, tries < 1, or the region does not hold the largest
+///   sphere or the widest clump
 Insertion makeInsertion(const InsertionOptions& settings);
 
 /// Inserts what is due after another dt seconds, at random places in the region where it touches no particle, no image
-/// of one, and no wall. Appended particles leave the others' numbers as they are. Returns how many entered.
+/// of one, and no wall; nothing once the insertion is complete. Appended particles leave the others' numbers as they
+/// are. Returns how many entered.
 /// @throws InputError if dt is not finite and ≥ 0, spin is wanted of particles that do not spin, or clumps are due
 int insertParticles(Insertion& insertion, Particles& particles, const Surroundings& surroundings, double dt);
 /// The same with clumps, if shapes are given; else spheres.

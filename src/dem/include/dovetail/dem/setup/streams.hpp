@@ -8,8 +8,9 @@
 
 namespace dovetail::dem {
 
-/// An insertion into the model: clear of its particles and walls, through its periods. What came in is booked as
-/// entered (mass, momentum, kinetic and gravity energy; it has no contacts, so that these add nothing).
+/// An insertion into the model, between its times `from` and `until`: clear of its particles and walls, through its
+/// periods. What came in is booked as entered (mass, momentum, kinetic and gravity energy; it has no contacts, so that
+/// these add nothing).
 class InsertionTerm final : public Term {
 public:
   /// @throws InputError as makeInsertion
