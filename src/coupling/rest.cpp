@@ -61,6 +61,12 @@ static double overElastic(double kinetic, CoupledRun& run) {
   return elastic > 0.0 ? kinetic / elastic : 1.0;
 }
 
+/// Forces of an oscillation about rest are to its energies as amplitudes are to their squares.
+static double residualOf(double kinetic, CoupledRun& run) {
+  const double unbalanced = dem::unbalancedLoads(run.grains);
+  return std::max(overElastic(kinetic, run), unbalanced * unbalanced);
+}
+
 bool relaxOn(CoupledRun& run, const RestCriterion& rest, RestProgress& progress, std::int64_t macroSteps) {
   validate(rest, "relax", 1);
   RestReport& report = progress.report;
@@ -74,7 +80,7 @@ bool relaxOn(CoupledRun& run, const RestCriterion& rest, RestProgress& progress,
       progress.before = kinetic;
       continue;
     }
-    report.residual = overElastic(progress.before, run);
+    report.residual = residualOf(progress.before, run);
     progress.quiet = report.residual <= rest.tolerance ? progress.quiet + 1 : 0;
     ++progress.stops;
     run.stop();
@@ -82,7 +88,7 @@ bool relaxOn(CoupledRun& run, const RestCriterion& rest, RestProgress& progress,
   }
   report.atRest = progress.quiet == 2;
   const bool givenUp = !report.atRest && report.steps >= rest.steps;
-  if (givenUp) report.residual = std::max(report.residual, overElastic(progress.before, run));
+  if (givenUp) report.residual = std::max(report.residual, residualOf(progress.before, run));
   if (report.atRest || givenUp) run.damp(false);
   return report.atRest || givenUp;
 }

@@ -116,6 +116,21 @@ void CoupledRun::advance(std::int64_t macroSteps, bool withEnergies) {
   dem::close(grains);
 }
 
+void CoupledRun::change(const std::function<void()>& act) {
+  const auto energy = [&] {
+    const EnergyLedger& now = ledger();
+    return now.stored() + now.booked();
+  };
+  const double before = energy();
+  act();
+  grains.forcesOf = dem::Model::outdated;
+  const bool refuses = std::exchange(grains.refusesUnstableSteps, false);
+  start(impl_->dt, impl_->options);
+  grains.refusesUnstableSteps = refuses;
+  impl_->changed += energy() - before;
+  impl_->lookAtLimit();
+}
+
 /// The particles' model may have been put in place of the one that the run began with.
 void CoupledRun::Impl::joinParticles() {
   if (!joined()) grains.terms.add(std::make_unique<SolidsTerm>(this));

@@ -51,6 +51,7 @@ const EnergyLedger& CoupledRun::ledger() {
   for (const auto& solid : impl_->solids) solid->sample(ledger);
   setConnectors(grains, ledger);
   ledger.set("kinetic damping", booked, impl_->broughtToRest);
+  ledger.set("changes (minus)", booked, -impl_->changed);
   ledger.set("staggering error (minus what it made)", booked, -impl_->madeByLag);
   ledger.close();
   return ledger;

@@ -94,6 +94,7 @@ struct CoupledRun::Impl {
   std::vector<NodalLoad> loadBefore;  ///< per solid: of the evaluation before the last; only with a lag
   std::vector<std::vector<Vec3>> lagFrom, lagTo, lagSeen;  ///< u at the ends of its step, and as last seen; m
   double broughtToRest = 0.0;                              ///< J, taken by stop()
+  double changed = 0.0;                                    ///< J, added by change()
   double madeByLag = 0.0;  ///< J: work of lagging loads on the nodes less that of the present ones
 };
 

@@ -36,13 +36,13 @@ struct Head {
   int stepsPerMacroStep = 0, lag = 0;
   std::uint64_t solids = 0;
   std::vector<Vec3> macroForce = {};
-  double madeByLag = 0.0, broughtToRest = 0.0;
+  double madeByLag = 0.0, broughtToRest = 0.0, changed = 0.0;
   std::vector<char> particles = {};
 };
 template <class Archive>
 void archiveHead(Archive& archive, Head& head) {
   archive(head.dt, head.stepsPerMacroStep, head.lag, head.solids, head.macroForce, head.madeByLag, head.broughtToRest,
-          head.particles);
+          head.changed, head.particles);
 }
 
 void requireSame(bool same, const char* what) {
@@ -115,6 +115,7 @@ std::vector<char> CoupledRun::Impl::save() {
             macroForce,
             madeByLag,
             broughtToRest,
+            changed,
             dem::saveState(grains)};
   archiveHead(archive, head);
   for (std::size_t s = 0; s < solids.size(); ++s) {
@@ -189,6 +190,7 @@ void CoupledRun::Impl::adopt(State state) {
   lagSeen.clear();
   madeByLag = state.head.madeByLag;
   broughtToRest = state.head.broughtToRest;
+  changed = state.head.changed;
   for (std::size_t s = 0; s < solids.size(); ++s) {
     solids[s]->adopt(*state.solids[s].own);
     solids[s]->bookedBefore = state.solids[s].bookedBefore;

@@ -26,7 +26,7 @@ TEST(SceneDrives, TellTheForceAndTheTorqueThatTheyTake) {
       "normal": [0, 0, -1], "velocity": [0.5, 0, 0]}],)");
   file.output.probes = {{"d", DriveProbe{0}, ""}, {"w", WallProbe{0}, ""}};
   Built built = started(file);
-  const Probes probes(built, file.output.probes);
+  const Probes probes(built, file);
   built.run->advance(2000);
   std::vector<double> row;
   probes.add(built, row);
@@ -36,7 +36,7 @@ TEST(SceneDrives, TellTheForceAndTheTorqueThatTheyTake) {
   EXPECT_NEAR(row[4], -friction * 0.009, 1e-11);
   EXPECT_NEAR(row[6], -friction, 1e-9);
   file.output.probes = {{"d", DriveProbe{1}, ""}};
-  EXPECT_THROW(Probes(built, file.output.probes), InputError);
+  EXPECT_THROW(Probes(built, file), InputError);
 }
 
 TEST(SceneDrives, GiveTheSpinThatIsAskedFor) {

@@ -48,7 +48,7 @@ TEST_P(ProbesAtRest, CarryTheWeight) {
   const auto& [steps, more] = GetParam();
   const Scene file = sceneFromText(scene(steps, more), "s.json", "/");
   Built built = started(file);
-  const Probes probes(built, file.output.probes);
+  const Probes probes(built, file);
   coupling::relax(*built.run, {.tolerance = 1e-12, .steps = 40000});
   const double grain = 2500.0 * 4.0 / 3.0 * std::acos(-1.0) * 1e-3 * 9.81;
   auto values = valuesOf(probes, built);
@@ -73,7 +73,7 @@ TEST(Probes, FollowTheirGrainAndTellThatItLeft) {
     "output": {"probes": [{"name": "a", "of": "grain", "at": [1, 0, 0]}, {"name": "b", "of": "grain", "at": [0, 0, 0.1]},
       {"name": "r", "of": "region", "box": [[-1, -1, -1], [0.5, 1, 1]]}]},)");
   Built built = started(file);
-  const Probes probes(built, file.output.probes);
+  const Probes probes(built, file);
   auto values = valuesOf(probes, built);
   EXPECT_EQ(values["a_vx_m_per_s"], 20.0);
   EXPECT_NEAR(values["r_vx_m_per_s"], (1.0 + 8.0 * 3.0) / 9.0, 1e-14);
@@ -88,7 +88,7 @@ TEST(Probes, OfWhatIsNotThereAreRefused) {
     const Scene file = sceneOf(R"("output": {"probes": [)" + probe + "]},");
     Built built = started(file);
     try {
-      Probes(built, file.output.probes);
+      Probes(built, file);
     } catch (const InputError& error) {
       return error.what();
     }

@@ -71,7 +71,7 @@ TEST_P(Reactions, BalanceLoadsAndInertia) {
       "output": {"series": 1, "probes": [{"name": "all", "of": "support", "solid": "b", "on": "all"}]}})";
   const Scene scene = sceneFromText(text, "s.json", folder.path());
   Built built = started(scene);
-  const Probes probes(built, scene.output.probes);
+  const Probes probes(built, scene);
   const Vec3 loads = 2000.0 * Vec3{0, 1, -9.81} + 2.0 * Vec3{500, 0, -800};
   const auto forceNow = [&] {
     std::vector<double> row;
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(All, Reactions,
 
 double forceAt(Built& built, const Scene& scene, std::size_t column) {
   std::vector<double> row;
-  Probes(built, scene.output.probes).add(built, row);
+  Probes(built, scene).add(built, row);
   return row.at(column);
 }
 
@@ -153,7 +153,7 @@ TEST(ReactionProbes, OfNodesThatNothingHoldsAreRefused) {
       "sets": [{"name": "corner", "place": "sphere", "centre": [1, 1, 1], "radius": 0.1}], "supports": [{"on": "z-"}]}],
       "output": {"probes": [{"name": "a", "of": "support", "solid": "b", "on": "corner"}]},)");
   Built built = started(scene);
-  EXPECT_THROW(Probes(built, scene.output.probes), InputError);
+  EXPECT_THROW(Probes(built, scene), InputError);
 }
 
 }  // namespace

@@ -57,11 +57,36 @@ void PrimitiveWallTerm::check(const Model& m) const {
   requireRows(wall.contacts, {m.particles.size(), 0});
 }
 
-void PrimitiveWallTerm::surround(Surroundings& around) { around.walls.push_back(&wall); }
-void MeshWallTerm::surround(Surroundings& around) { around.meshes.push_back(&mesh.wall); }
+void PrimitiveWallTerm::surround(Surroundings& around) {
+  if (present) around.walls.push_back(&wall);
+}
+void MeshWallTerm::surround(Surroundings& around) {
+  if (present) around.meshes.push_back(&mesh.wall);
+}
+
+namespace {
+constexpr const char* loadOfTime = "a load of time";
+
+std::string codeOf(const WallServo& servo) { return servo.loadAt ? loadOfTime : ""; }
+
+/// Of contacts from the axis of one that turns, m.
+template <class PointOf>
+double largestLever(const WallServo& servo, std::size_t contacts, const PointOf& pointOf) {
+  double lever = 0.0;
+  for (std::size_t c = 0; servo.turns && c < contacts; ++c) lever = std::max(lever, servo.leverOf(pointOf(c)));
+  return lever;
+}
+}  // namespace
+
+std::string PrimitiveWallTerm::code() const {
+  if (wall.motion) return "a motion";
+  return wall.servo ? codeOf(*wall.servo) : "";
+}
 
 double PrimitiveWallTerm::move(Model& m, const Step& step) {
+  if (!present && wall.servo) return 0.0;
   kickWall(wall, 0.5 * (step.closing + step.dt));
+  if (wall.servo) setLoad(*wall.servo, step.time);
   if (wall.motion) {
     const double power = drivingPower(wall);
     const Vec3 point = wall.point, axis = wall.axis;
@@ -81,6 +106,7 @@ double PrimitiveWallTerm::renumber(std::span<const int> newNumber, const Particl
 }
 
 void PrimitiveWallTerm::addForces(Model& m, const Step& step) {
+  if (!present) return;
   wall.reach = m.pairs.reach();
   findContacts(m.particles, wall, movesOf(m, step), m.pairs.periodicity());
   const ContactWork work = m.laws->wall(m.particles, wall, step.dt, m.booking);
@@ -89,13 +115,20 @@ void PrimitiveWallTerm::addForces(Model& m, const Step& step) {
   m.rate.walls += drivingPower(wall);
 }
 
-void PrimitiveWallTerm::close(Model&, double dt) { kickWall(wall, 0.5 * dt); }
+void PrimitiveWallTerm::close(Model&, double dt) {
+  if (present) kickWall(wall, 0.5 * dt);
+}
 
 void PrimitiveWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
   if (!m.laws || wall.contacts.size() == 0) return;
   const std::size_t first = demand.links.size();
   m.laws->addDemand(demand, m.particles, wall);
-  if (wall.servo) demand.standOn(first, &*wall.servo, 1.0 / wall.servo->mass);
+  if (!wall.servo) return;
+  const PrimitiveContacts& c = wall.contacts;
+  const double lever = largestLever(*wall.servo, c.size(), [&](std::size_t k) {
+    return m.particles.x[static_cast<std::size_t>(c.particle[k])] + c.shift(k);
+  });
+  demand.standOn(first, &*wall.servo, wall.servo->inverseMass(lever));
 }
 
 namespace {
@@ -167,12 +200,15 @@ void MeshWallTerm::check(const Model& m) const {
 
 std::string MeshWallTerm::code() const {
   if (std::holds_alternative<PrescribedMotion>(mesh.motion)) return "a motion";
+  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) return codeOf(*servo);
   return std::holds_alternative<MovedByOthers>(mesh.motion) ? "somebody who moves it" : "";
 }
 
 double MeshWallTerm::move(Model&, const Step& step) {
   if (carried(mesh)) return 0.0;  // its body moves it
+  if (!present && std::holds_alternative<WallServo>(mesh.motion)) return 0.0;
   kickWall(mesh, 0.5 * (step.closing + step.dt));
+  if (auto* servo = std::get_if<WallServo>(&mesh.motion)) setLoad(*servo, step.time);
   moveWall(mesh, step.time, step.dt);
   return 0.0;
 }
@@ -184,6 +220,7 @@ double MeshWallTerm::renumber(std::span<const int> newNumber, const Particles&) 
 }
 
 void MeshWallTerm::findFacetContacts(Model& m, const Step& step, std::vector<WallAtSeam>& seams) {
+  if (!present) return;
   if (step.timeless && carried(mesh)) moveWall(mesh, m.time, 0.0, &bodiesOf(m));
   mesh.candidates.reach = m.pairs.reach();
   findContacts(m.particles, mesh, movesOf(m, step), m.pairs.periodicity());
@@ -192,10 +229,11 @@ void MeshWallTerm::findFacetContacts(Model& m, const Step& step, std::vector<Wal
 }
 
 void MeshWallTerm::takeFacetContacts(Model& m, const Step&, std::vector<AnsweredContacts>& walls) {
-  walls.push_back({&mesh.contacts, {m.laws.get(), mesh.wall.material}});
+  if (present) walls.push_back({&mesh.contacts, {m.laws.get(), mesh.wall.material}});
 }
 
 void MeshWallTerm::addForces(Model& m, const Step& step) {
+  if (!present) return;
   const ContactWork work = m.laws->wall(m.particles, mesh.wall, mesh.contacts, step.dt, m.booking);
   stored = work.storedEnergy();
   m.work += work;
@@ -204,7 +242,7 @@ void MeshWallTerm::addForces(Model& m, const Step& step) {
 }
 
 void MeshWallTerm::close(Model& m, double dt) {
-  if (carried(mesh)) return;
+  if (carried(mesh) || (!present && std::holds_alternative<WallServo>(mesh.motion))) return;
   kickWall(mesh, 0.5 * dt);
   moveWall(mesh, m.time, 0.0);
 }
@@ -213,7 +251,11 @@ void MeshWallTerm::addDemand(const Model& m, ContactDemand& demand) const {
   if (!m.laws || mesh.contacts.size() == 0 || carried(mesh)) return;
   const std::size_t first = demand.links.size();
   m.laws->addDemand(demand, m.particles, mesh.wall, mesh.contacts);
-  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) demand.standOn(first, servo, 1.0 / servo->mass);
+  const auto* const servo = std::get_if<WallServo>(&mesh.motion);
+  if (!servo) return;
+  const double lever = largestLever(*servo, mesh.contacts.size(),
+                                    [&](std::size_t c) { return contactPoint(mesh.contacts, mesh.wall, c); });
+  demand.standOn(first, servo, servo->inverseMass(lever));
 }
 
 void MeshWallTerm::addEnergies(const Model&, Energies& e) const {
@@ -286,6 +328,30 @@ void removeTerm(Model& m, const Wall& wall, Wall WallTerm::*part) {
 
 void removeWall(Model& m, const PrimitiveWall& wall) { removeTerm(m, wall, &PrimitiveWallTerm::wall); }
 void removeWall(Model& m, const MeshWall& mesh) { removeTerm(m, mesh, &MeshWallTerm::mesh); }
+
+void setPresent(PrimitiveWallTerm& term, bool present) {
+  if (term.present == present) return;
+  term.present = present;
+  term.stored = 0.0;
+  term.wall.contacts = {};
+  term.wall.search = {};
+  term.wall.force = term.wall.torque = {};
+  if (term.wall.servo) term.wall.servo->speed = term.wall.servo->contact = 0.0;
+}
+
+void setPresent(MeshWallTerm& term, bool present) {
+  if (term.present == present) return;
+  term.present = present;
+  term.stored = 0.0;
+  MeshWall& mesh = term.mesh;
+  mesh.contacts = {};
+  const std::optional<double> skin = mesh.candidates.skin;
+  mesh.candidates = {};
+  mesh.candidates.skin = skin;
+  mesh.step = 0.0;
+  clearForces(mesh.wall);
+  if (auto* servo = std::get_if<WallServo>(&mesh.motion)) servo->speed = servo->contact = 0.0;
+}
 
 PrimitiveWall& primitiveWall(Model& m, std::size_t i) {
   return numbered<PrimitiveWallTerm>(m, i, "primitive wall").wall;

@@ -99,6 +99,9 @@ void check(const Model& m, const RestCriterion& rest, const RelaxationOptions& s
   validate(rest, "relaxation");
   requireFraction(s.stepFraction, "the fraction of the critical step", "relaxation");
   if (s.lookEvery < 1) throw InputError("lookEvery is " + std::to_string(s.lookEvery), "relaxation", "give 1 or more");
+  for (const WallServo* servo : servosOf(m))
+    if (servo->turns)
+      throw InputError("a wall keeps a torque", "relaxation", "relax with coupling::relax, or hold the wall");
   for (const PrimitiveWallTerm* term : m.terms.all<PrimitiveWallTerm>())
     if (const Vec3 along = term->wall.servo ? term->wall.servo->direction : Vec3{};
         term->wall.motion || norm(term->wall.angularVelocity) > 0.0 ||
@@ -205,10 +208,16 @@ RelaxationReport restOf(const Model& m) {
   const auto held = static_cast<double>(counted - report.rattlers);
   if (residual > 0.0)
     report.residual = contactForce > 0.0 ? residual / held / contactForce : std::numeric_limits<double>::infinity();
+  report.residual = std::max(report.residual, unbalancedLoads(m));
+  return report;
+}
+
+double unbalancedLoads(const Model& m) {
+  double largest = 0.0;
   for (const WallServo* servo : servosOf(m))
     if (const double most = std::max(std::abs(servo->load), std::abs(servo->contact)); most > 0.0)
-      report.residual = std::max(report.residual, std::abs(servo->unbalanced()) / most);
-  return report;
+      largest = std::max(largest, std::abs(servo->unbalanced()) / most);
+  return largest;
 }
 
 namespace {

@@ -28,8 +28,7 @@ Place placeOf(const MeshWall& mesh, double time, const Bodies* bodies) {
     if (!*motion) throw InputError("its motion is empty", "triangulated wall", "give a function, or leave it at rest");
     return {(*motion)(time), &mesh.offset};
   }
-  if (const auto* servo = std::get_if<WallServo>(&mesh.motion))
-    return {{servo->travel * servo->direction, {}, servo->speed * servo->direction, {}}, &mesh.offset};
+  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) return {servo->pose(), &mesh.offset};
   const auto& carrier = std::get<WallOnBody>(mesh.motion);
   requireBody(carrier, bodies);
   return {poseOf(*bodies, carrier), &carrier.offset};
@@ -89,14 +88,18 @@ void prescribe(MeshWall& mesh, PrescribedMotion motion, const Vec3& reference) {
 }
 
 void prescribe(MeshWall& mesh, const WallServo& servo) {
-  mesh.offset = vertexOffsets(mesh.wall, servo.travel * servo.direction);
+  const RigidMotion now = servo.pose();
+  mesh.offset = vertexOffsets(mesh.wall, now.x);
+  if (servo.turns)
+    for (Vec3& arm : mesh.offset) arm = rotateBack(now.turn, arm);
   mesh.motion = servo;
 }
 
 void kickWall(MeshWall& mesh, double dt) {
   auto* servo = std::get_if<WallServo>(&mesh.motion);
   if (!servo) return;
-  servo->contact = dot(totalForce(mesh.wall), servo->direction);
+  takeContact(*servo, totalForce(mesh.wall), servo->turns ? totalMoment(mesh.wall, servo->point) : Vec3{},
+              servo->point);
   kickServo(*servo, dt);
 }
 

@@ -71,17 +71,32 @@ WallDistance distanceTo(const PrimitiveWall& wall, const Vec3& x) {
 
 void kickWall(PrimitiveWall& wall, double dt) {
   if (!wall.servo) return;
-  wall.servo->contact = dot(wall.force, wall.servo->direction);
+  takeContact(*wall.servo, wall.force, wall.torque, wall.point);
   kickServo(*wall.servo, dt);
 }
 
+namespace {
+/// About the servo's axis, on which the wall's point need not lie.
+void turnBy(WallServo& servo, PrimitiveWall& wall, double dt) {
+  const Quaternion turn = fromRotationVector(dt * servo.speed * servo.direction);
+  driftServo(servo, dt);
+  wall.point = servo.point + rotate(turn, wall.point - servo.point);
+  wall.velocity = servo.velocityAt(wall.point);
+  wall.angularVelocity = servo.spin();
+}
+}  // namespace
+
 void drift(PrimitiveWall& wall, double dt) {
-  if (wall.servo) {
-    const Vec3& along = wall.servo->direction;
-    wall.velocity += (wall.servo->speed - dot(wall.velocity, along)) * along;
-    driftServo(*wall.servo, dt);
+  if (wall.servo && wall.servo->turns) {
+    turnBy(*wall.servo, wall, dt);
+  } else {
+    if (wall.servo) {
+      const Vec3& along = wall.servo->direction;
+      wall.velocity += (wall.servo->speed - dot(wall.velocity, along)) * along;
+      driftServo(*wall.servo, dt);
+    }
+    wall.point += dt * wall.velocity;
   }
-  wall.point += dt * wall.velocity;
   if (squaredNorm(wall.angularVelocity) == 0.0) return;
   // A turn by the angle |ω| dt about ω (Rodrigues).
   const double speed = norm(wall.angularVelocity), angle = speed * dt;
@@ -95,9 +110,9 @@ void drift(PrimitiveWall& wall, double dt) {
 }
 
 double drivingPower(const PrimitiveWall& wall) {
-  Vec3 driven = wall.velocity + wall.surfaceVelocity;
-  if (wall.servo) driven -= wall.servo->speed * wall.servo->direction;
-  return -dot(wall.force, driven) - dot(wall.torque, wall.angularVelocity);
+  Vec3 driven = wall.velocity + wall.surfaceVelocity, spin = wall.angularVelocity;
+  if (wall.servo) driven -= wall.servo->velocityAt(wall.point), spin -= wall.servo->spin();
+  return -dot(wall.force, driven) - dot(wall.torque, spin);
 }
 
 double renumber(PrimitiveWall& wall, std::span<const int> newNumber) {

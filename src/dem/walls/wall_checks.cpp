@@ -47,7 +47,7 @@ void validate(const PrimitiveWall& wall, int materials, const geometry::Periodic
   if (wall.shape != PrimitiveWall::Shape::plane) requirePositive(wall.radius, "radius of a primitive wall");
   requireCommon(wall.skin, wall.material, materials, "a primitive wall");
   requireAlongSurface(wall);
-  if (wall.servo) makeServo(wall.servo->direction, wall.servo->load, wall.servo->mass, wall.servo->damping);
+  if (wall.servo) validate(*wall.servo);
   requireRepeats(wall, periodicity, 0.0);
 }
 
@@ -65,8 +65,7 @@ void validate(const MeshWall& mesh, int materials) {
     if (mesh.offset.size() != wall.x.size())
       throw InputError("its motion has no offsets", what, "set it by prescribe(mesh, motion, reference)");
   }
-  if (const auto* servo = std::get_if<WallServo>(&mesh.motion))
-    makeServo(servo->direction, servo->load, servo->mass, servo->damping);
+  if (const auto* servo = std::get_if<WallServo>(&mesh.motion)) validate(*servo);
 }
 
 namespace {

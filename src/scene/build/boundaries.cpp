@@ -5,6 +5,7 @@
 #include <functional>
 #include <set>
 
+#include "changes.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/mesh_places.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
@@ -138,10 +139,27 @@ void add(fem::SolidMesh& mesh, const NamedSet& set) {
   std::visit([&](const auto& kind) { add(mesh, set.name, kind); }, set.place);
 }
 
-/// A number, which lets the load store energy, or a function.
-fem::Amplitude amplitudeOf(const TimeValue& value, const Scene& scene) {
+struct Loaded {
+  fem::Model& model;
+  const fem::SolidMesh& mesh;
+  const std::string& on;
+  std::string name;
+  const Scene& scene;
+  const Solid& solid;
+  ChangingParts& changing;
+  const std::vector<fem::Face>& faces() const { return fem::faceSet(mesh, on); }
+};
+
+/// A number, which lets the load store energy, or a function; of a load that stages change, one that they exchange.
+fem::Amplitude amplitudeOf(const Loaded& to, const Load& load, const TimeValue& value, int component) {
+  if (isChanged(load, to.solid, to.scene)) {
+    const auto now = std::make_shared<TimeFunction>(functionOf(value, to.scene));
+    if (!to.changing.loads.emplace(keyOfLoad(to.solid.name, load, component), now).second)
+      throw InputError("a stage changes one of two loads of this kind on " + load.on, "", "join the two");
+    return [now](double t) { return (*now)(t); };
+  }
   if (isConstant(value)) return value.number;
-  return functionOf(value, scene);
+  return functionOf(value, to.scene);
 }
 
 /// Nodes that are held in all components, ascending.
@@ -152,38 +170,35 @@ std::vector<int> clampedIn(const fem::Model& model) {
   return nodes;
 }
 
-struct Loaded {
-  fem::Model& model;
-  const fem::SolidMesh& mesh;
-  const std::string& on;
-  std::string name;
-  const Scene& scene;
-  const std::vector<fem::Face>& faces() const { return fem::faceSet(mesh, on); }
-};
-void add(const Loaded& to, const PressureLoad& load) {
+void add(const Loaded& to, const Load& all, const PressureLoad& load) {
   if (usesPlace(load.pressure)) {
+    if (isChanged(all, to.solid, to.scene))
+      throw InputError("a load of the place cannot change", "", "leave x, y and z out of it, or leave it as it is");
     const PlaceFunction pressure = fieldOf(load.pressure, to.scene);
     to.model.add(load.follows ? fem::followingPressure(to.mesh, to.faces(), pressure, to.name)
                               : fem::deadPressure(to.mesh, to.faces(), pressure, to.name));
     return;
   }
-  const fem::Amplitude pressure = amplitudeOf(load.pressure, to.scene);
+  const fem::Amplitude pressure = amplitudeOf(to, all, load.pressure, 0);
   if (load.follows)
     to.model.add(fem::followingPressure(to.mesh, to.faces(), pressure, clampedIn(to.model), to.name));
   else
     to.model.add(fem::deadPressure(to.mesh, to.faces(), pressure, to.name));
 }
-void add(const Loaded& to, const NodalLoad& load) {
+void add(const Loaded& to, const Load& all, const NodalLoad& load) {
   const std::vector<int>& nodes = fem::nodeSet(to.mesh, to.on);
   for (std::size_t c = 0; c < 3; ++c) {
-    if (isConstant(load.force[c]) && load.force[c].number == 0.0) continue;
+    if (isConstant(load.force[c]) && load.force[c].number == 0.0 && !isChanged(all, to.solid, to.scene)) continue;
     Vec3 part;
     part[static_cast<int>(c)] = 1.0 / static_cast<double>(nodes.size());
-    to.model.add(fem::nodalForce(nodes, part, amplitudeOf(load.force[c], to.scene), to.name + " along " + "xyz"[c]));
+    to.model.add(fem::nodalForce(nodes, part, amplitudeOf(to, all, load.force[c], static_cast<int>(c)),
+                                 to.name + " along " + "xyz"[c]));
   }
 }
-void add(const Loaded& to, const TractionLoad& load) {
+void add(const Loaded& to, const Load& all, const TractionLoad& load) {
   if (usesPlace(load.traction)) {
+    if (isChanged(all, to.solid, to.scene))
+      throw InputError("a load of the place cannot change", "", "leave x, y and z out of it, or leave it as it is");
     const std::array<PlaceFunction, 3> part{fieldOf(load.traction[0], to.scene), fieldOf(load.traction[1], to.scene),
                                             fieldOf(load.traction[2], to.scene)};
     to.model.add(fem::deadTraction(
@@ -195,10 +210,11 @@ void add(const Loaded& to, const TractionLoad& load) {
     return;
   }
   for (std::size_t c = 0; c < 3; ++c) {
-    if (isConstant(load.traction[c]) && load.traction[c].number == 0.0) continue;
+    if (isConstant(load.traction[c]) && load.traction[c].number == 0.0 && !isChanged(all, to.solid, to.scene)) continue;
     Vec3 direction;
     direction[static_cast<int>(c)] = 1.0;
-    to.model.add(fem::deadTraction(to.mesh, to.faces(), direction, amplitudeOf(load.traction[c], to.scene),
+    to.model.add(fem::deadTraction(to.mesh, to.faces(), direction,
+                                   amplitudeOf(to, all, load.traction[c], static_cast<int>(c)),
                                    to.name + " along " + "xyz"[c]));
   }
 }
@@ -233,16 +249,17 @@ void addSets(fem::SolidMesh& mesh, const Solid& solid) {
 }
 
 void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene,
-                   std::vector<std::string>& notes) {
+                   Built& built) {
   Holders holders(model, mesh, solid, scene);
   for (const Support& one : solid.supports) atPlace(one.where, [&] { holders.hold(one); });
   for (const MeshTie& tie : solid.ties) atPlace(tie.where, [&] { holders.carry(tie); });
-  notes.insert(notes.end(), holders.jumps().begin(), holders.jumps().end());
+  built.notes.insert(built.notes.end(), holders.jumps().begin(), holders.jumps().end());
   for (std::size_t k = 0; k < solid.loads.size(); ++k)
     atPlace(solid.loads[k].where, [&] {
       const Load& load = solid.loads[k];
-      const Loaded to{model, mesh, load.on, "load " + std::to_string(k) + " on " + load.on, scene};
-      std::visit([&](const auto& kind) { add(to, kind); }, load.kind);
+      const Loaded to{model, mesh,  load.on,       "load " + std::to_string(k) + " on " + load.on,
+                      scene, solid, built.changing};
+      std::visit([&](const auto& kind) { add(to, load, kind); }, load.kind);
     });
   if (solid.massDamping > 0.0) model.add(fem::massDamping(solid.massDamping));
   for (std::size_t k = 0; k < solid.planes.size(); ++k)

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "changes.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/model/impact.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
@@ -29,6 +31,19 @@ void setLaws(dem::Model& grains, const Scene& scene) {
   grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1.0}});  // of a scene without grains
 }
 
+/// Of the grains as they lie now, under the laws and with the walls of a later stage.
+StepLimit limitOfStage(const Built& built, const Scene& scene, std::size_t stage) {
+  const dem::Model grains = grainsAt(built, scene, stage);
+  const dem::ContactDemand demand = dem::demandOf(grains);
+  const std::string of = "stage " + std::to_string(stage + 1) + ": ";
+  StepLimit limit = dem::criticalStep(demand, grains.particles);
+  limit.lower(dem::impactLimit(grains, demand));
+  limit.owner = of + limit.owner;
+  const Impact impact = briefestImpact(lawsAt(scene, stage), grains.particles);
+  limit.lower({impact.limit, of + "an impact of the smallest grains" + impact.materials});
+  return limit;
+}
+
 /// Those that do not depend on how things lie now.
 std::vector<StepLimit> limitsOfParts(Built& built, const Scene& scene) {
   std::vector<StepLimit> found;
@@ -41,6 +56,8 @@ std::vector<StepLimit> limitsOfParts(Built& built, const Scene& scene) {
   }
   const Impact impact = briefestImpact(scene, built.run->grains.particles);
   found.push_back({impact.limit, "an impact of the smallest grains" + impact.materials});
+  for (std::size_t k = 0; k < scene.stages.size(); ++k)
+    if (scene.stages[k].changes) found.push_back(limitOfStage(built, scene, k));
   return found;
 }
 
@@ -51,6 +68,10 @@ Impact resolvedImpact(const Built& built, const Scene& scene) {
   const dem::Model& grains = built.run->grains;
   if (std::isinf(grains.laws->reach())) return {};
   Impact impact = briefestImpact(scene, grains.particles);
+  for (std::size_t k = 0; k < scene.stages.size(); ++k)
+    if (changesLaws(scene.stages[k]))
+      if (const Impact then = briefestImpact(lawsAt(scene, k), grains.particles); then.limit < impact.limit)
+        impact = then;
   impact.limit *= shareOfImpact;
   return impact;
 }
@@ -104,8 +125,6 @@ void requireStandstill(const Scene& scene) {
                      "run for a time in place of relaxing, or let it begin later by a displacement such as "
                      "\"0.1*max(0, t - 1)\"");
   };
-  for (const Wall& wall : scene.walls)
-    if (goesOn(wall.velocity, wall.angularVelocity)) refuse("a wall", wall.where);
   for (const Drive& drive : scene.drives)
     if (goesOn(drive.velocity, constantOf(drive.spin))) refuse("a drive", drive.where);
   for (const Solid& solid : scene.solids) {
@@ -168,6 +187,7 @@ Built build(const Scene& scene) {
   dem::Model& grains = built.run->grains;
   setLaws(grains, scene);
   grains.gravity = scene.gravity;
+  *built.changing.gravity = scene.gravity;
   if (scene.periodic) grains.pairs.setPeriodicity({scene.periodic->box, scene.periodic->axes});
   if (scene.damping) {
     dem::damping(grains).viscousRate = scene.damping->rate;
@@ -185,6 +205,7 @@ Built build(const Scene& scene) {
   addCouplings(built, scene);
   requireTogether(built, scene);
   takeContacts(built, scene);
+  requireChanges(built, scene);
   return built;
 }
 
@@ -202,6 +223,17 @@ void foreseeSolvers(Built& built) {
   }
 }
 
+void requireStableStages(const Built& built, const Scene& scene, double dt) {
+  for (std::size_t k = 0; k < scene.stages.size(); ++k) {
+    if (!scene.stages[k].changes) continue;
+    const StepLimit limit = limitOfStage(built, scene, k);
+    if (dt > limit.dt)
+      throw InputError("dt = " + formatNumber(dt) + " s exceeds the critical step of " + formatNumber(limit.dt) +
+                           " s, set by " + limit.owner,
+                       "", "take a fifth of the limit or less");
+  }
+}
+
 bool nothingIsThere(const Built& built, const Scene& scene) {
   return built.run->grains.particles.size() == 0 && built.run->solids() == 0 && scene.insertions.empty();
 }
@@ -215,6 +247,7 @@ void start(Built& built, const Scene& scene) {
   atPlace(scene.steps.where, [&] {
     if (scene.steps.dt.word.empty()) {
       built.run->start(scene.steps.dt.number, options);
+      requireStableStages(built, scene, scene.steps.dt.number);
       return noteCoarseStep(built, scene, scene.steps.dt.number);
     }
     double smallest = built.run->limitAtStart(options).dt;

@@ -61,12 +61,16 @@ void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& gro
 /// Of the grains there are and those that enter, m.
 double largestRadius(const Scene& scene, const dem::Particles& particles);
 void addWalls(Built& built, const Scene& scene);
+/// Number of an item of `walls` by its name or number. @throws InputError if there is none
+std::size_t wallNamed(const std::string& name, const Scene& scene);
 void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
 void addSolids(Built& built, const Scene& scene);
 void addCouplings(Built& built, const Scene& scene);
 /// @throws InputError telling the worst grain, if there are grains on the wrong side of a wall or outside of the
 /// domain; where the domain removes those there is a note
 void requireTogether(Built& built, const Scene& scene);
+/// @throws InputError telling the worst grain, if there are grains on the wrong side of a wall
+void requireBefore(const dem::Model& grains, const Scene& scene, std::size_t item, const WallParts& parts);
 /// Number of a solid. @throws InputError with the nearest name there is
 std::size_t solidNamed(const std::string& name, const coupling::CoupledRun& run);
 
@@ -79,8 +83,7 @@ fem::SolidMesh meshOf(const TetrahedraMesh& from, std::vector<std::string>& note
 /// Whether a stage takes load steps.
 bool hasStatics(const Scene& scene);
 /// Puts supports, loads, ties and planes on a solid.
-void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene,
-                   std::vector<std::string>& notes);
+void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene, Built& built);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
 
@@ -107,9 +110,10 @@ struct SurfaceOfFile {
   geometry::TriangleMesh mesh;
   std::vector<std::string> notes;  ///< of what its reader passed over
 };
-/// The surface of a file, repaired; notes tell of what was dropped or turned.
-geometry::TriangleMesh repairedSurface(const std::string& file, geometry::ClosedPatches closed,
-                                       std::vector<std::string>& notes);
+/// The surface of some files together, repaired; notes tell of what was dropped or turned.
+/// @param tolerance  of vertices that become one, in the unit of the files
+geometry::TriangleMesh repairedSurface(const std::vector<std::string>& files, double tolerance,
+                                       geometry::ClosedPatches closed, std::vector<std::string>& notes);
 
 // Files of kinds that depend on the build.
 SurfaceOfFile readTriangles(const std::string& file);

@@ -25,16 +25,26 @@ std::vector<std::string> notesOn(const geometry::SurfaceRepair& repair, geometry
 
 }  // namespace
 
-geometry::TriangleMesh repairedSurface(const std::string& file, geometry::ClosedPatches closed,
-                                       std::vector<std::string>& notes) {
-  SurfaceOfFile read = readTriangles(file);
-  const geometry::SurfaceRepair repair = geometry::repairSurface(read.mesh, 0.0, closed);
-  const std::string name = std::filesystem::path(file).filename().string();
-  for (const std::vector<std::string>& told : {read.notes, notesOn(repair, closed)})
-    for (const std::string& note : told) notes.push_back(name + ": " + note);
-  if (read.mesh.facets.empty())
-    throw InputError("no facet of " + name + " has an area", "", "give a file with a surface");
-  return std::move(read.mesh);
+geometry::TriangleMesh repairedSurface(const std::vector<std::string>& files, double tolerance,
+                                       geometry::ClosedPatches closed, std::vector<std::string>& notes) {
+  geometry::TriangleMesh all;
+  std::string names;
+  for (const std::string& file : files) {
+    SurfaceOfFile read = readTriangles(file);
+    const std::string name = std::filesystem::path(file).filename().string();
+    names += (names.empty() ? "" : ", ") + name;
+    for (const std::string& note : read.notes) notes.push_back(name + ": " + note);
+    const auto first = static_cast<int>(all.x.size());
+    all.x.insert(all.x.end(), read.mesh.x.begin(), read.mesh.x.end());
+    for (geometry::Facet facet : read.mesh.facets) {
+      for (int& vertex : facet) vertex += first;
+      all.facets.push_back(facet);
+    }
+  }
+  for (const std::string& note : notesOn(geometry::repairSurface(all, tolerance, closed), closed))
+    notes.push_back(names + ": " + note);
+  if (all.facets.empty()) throw InputError("no facet of " + names + " has an area", "", "give a file with a surface");
+  return all;
 }
 
 }  // namespace dovetail::scene

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "changes.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/terms/loads.hpp"
@@ -132,12 +133,15 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   fem::SolidMesh& mesh = built.meshes.back();
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap);
-  if (solid.gravity && norm(scene.gravity) > 0.0) model->add(fem::gravity(scene.gravity));
+  if (solid.gravity && changesGravity(scene))
+    model->add(fem::gravity([now = built.changing.gravity](double) { return *now; }));
+  else if (solid.gravity && norm(scene.gravity) > 0.0)
+    model->add(fem::gravity(scene.gravity));
   if (solid.state)
     takeSolid(*model, solid, built.notes);
   else
     for (Vec3& v : model->nodes.v) v = solid.velocity;
-  addBoundaries(*model, mesh, solid, scene, built.notes);
+  addBoundaries(*model, mesh, solid, scene, built);
   if (solid.linearSolver != 0 && !solid.implicitSteps && !hasStatics(scene))
     throw InputError("explicit steps solve no linear systems", "linear_solver",
                      "leave it out, or give \"stepping\": \"implicit\"");

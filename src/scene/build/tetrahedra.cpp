@@ -38,7 +38,7 @@ fem::SolidMesh meshOf(const TetrahedraMesh& from, std::vector<std::string>& note
     throw InputError("this program cannot fill surfaces with tetrahedra", from.file,
                      "configure it with -D DOVETAIL_PROGRAM_CGAL=ON (CGAL is under the GPL), or mesh the solid with "
                      "Gmsh and write \"mesh\": \"file\"");
-  geometry::TriangleMesh surface = repairedSurface(from.file, geometry::ClosedPatches::turn, notes);
+  geometry::TriangleMesh surface = repairedSurface({from.file}, 0.0, geometry::ClosedPatches::turn, notes);
   for (Vec3& x : surface.x) x = from.scale * x;
   requireClosed(surface, from.file);
   requireMemoryIn(surface, from.size);

@@ -2,70 +2,41 @@
 #include "dovetail/dem/model/walls.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "dovetail/geometry/triangle_mesh.hpp"
+#include "dovetail/io/names.hpp"
+#include "keys/advice.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
+#include "wall_motion.hpp"
 
 namespace dovetail::scene {
 
 namespace {
 
-/// A wall with what it needs to move.
+/// A wall that is being made.
 struct Target {
   coupling::CoupledRun& run;
   const Wall& wall;
   const Scene& scene;
   std::vector<std::string>& notes;
-  bool isSteady() const { return !wall.displacement && !wall.turn && isConstant(wall.velocity); }
+  WallParts& parts;
 };
-
-/// Where a wall is at a time, from how it is described; `about` is its point.
-dem::PrescribedMotion motionOf(const Target& to, const Vec3& about) {
-  const Wall& wall = to.wall;
-  if (wall.turn && norm(wall.angularVelocity) > 0.0)
-    throw InputError("both an angular velocity and a turn are given", "", "leave one of them out");
-  if (wall.turn && norm(wall.turn->axis) == 0.0)
-    throw InputError("the axis of the turn has no length", "", "give it a direction, such as [0, 0, 1]");
-  const Path path = pathOf(wall.velocity, wall.displacement, to.scene);
-  const double speed = norm(wall.angularVelocity);
-  const Vec3 axis = wall.turn ? normalized(wall.turn->axis) : speed > 0.0 ? wall.angularVelocity / speed : Vec3{};
-  const Travel angle = wall.turn ? travelOf(wall.turn->angle, to.scene) : travelAt({speed, ""}, to.scene);
-  return [=](double t) {
-    return dem::RigidMotion{about + path.displacement(t), fromRotationVector(angle.displacement(t) * axis),
-                            path.velocity(t), angle.velocity(t) * axis};
-  };
-}
-
-/// The wall as `motion` has it at a time, or so that it drifts there in a step that long.
-void place(dem::PrimitiveWall& wall, const dem::RigidMotion& now, const Vec3& axis, double dt) {
-  wall.velocity = now.v;
-  wall.angularVelocity = now.omega;
-  wall.point = now.x - dt * now.v;
-  wall.axis = rotate(fromRotationVector(-dt * now.omega) * now.turn, axis);
-}
 
 void add(const Target& to, dem::PrimitiveWall made) {
   made.material = contactRow(to.scene, to.wall.contactMaterial);
   dem::requireRepeats(made, to.run.grains.pairs.periodicity(), largestRadius(to.scene, to.run.grains.particles));
-  if (to.isSteady()) {
-    made.velocity = constantOf(to.wall.velocity);
-    made.angularVelocity = to.wall.angularVelocity;
-  } else {
-    const dem::PrescribedMotion motion = motionOf(to, made.point);
-    const coupling::CoupledRun* const run = &to.run;
-    place(made, motion(0.0), made.axis, 0.0);
-    made.motion = [run, motion, axis = made.axis](double t, dem::PrimitiveWall& wall) {
-      place(wall, motion(t), axis, run->dt());
-    };
-  }
+  to.parts.arms.push_back(made.point - to.parts.point);
+  to.parts.axes.push_back(made.axis);
   dem::addWall(to.run.grains, std::move(made));
 }
-void add(const Target& to, const Plane& plane) { add(to, dem::makePlane(plane.point, plane.normal)); }
+void add(const Target& to, const Plane& plane) {
+  to.parts.point = plane.point;
+  add(to, dem::makePlane(plane.point, plane.normal));
+}
 void add(const Target& to, const BoxWalls& box) {
-  if (norm(to.wall.angularVelocity) > 0.0 || to.wall.turn)
-    throw InputError("the walls of a box cannot turn", "",
-                     "give planes, or a mesh, or leave angular_velocity and turn out");
+  to.parts.centre = 0.5 * (box.box.lower + box.box.upper);
   for (const bool upper : {false, true})
     for (int k = 0; k < 3; ++k) {
       const std::string side = std::string(1, "xyz"[k]) + (upper ? "+" : "-");
@@ -76,9 +47,11 @@ void add(const Target& to, const BoxWalls& box) {
     }
 }
 void add(const Target& to, const Cylinder& cylinder) {
+  to.parts.point = cylinder.point;
   add(to, dem::makeCylinder(cylinder.point, cylinder.axis, cylinder.radius, cylinder.inside));
 }
 void add(const Target& to, const SphereWall& sphere) {
+  to.parts.point = sphere.centre;
   add(to, dem::makeSphere(sphere.centre, sphere.radius, sphere.inside));
 }
 /// Of the surface, whatever its triangulation.
@@ -96,24 +69,63 @@ Vec3 centroidOf(const geometry::TriangleMesh& mesh) {
 
 void add(const Target& to, const SurfaceFile& from) {
   const auto patches = from.closed ? geometry::ClosedPatches::keep : geometry::ClosedPatches::turn;
-  geometry::TriangleMesh mesh = repairedSurface(from.file, patches, to.notes);
+  std::vector<std::string> files{from.file};
+  files.insert(files.end(), from.more.begin(), from.more.end());
+  geometry::TriangleMesh mesh = repairedSurface(files, from.tolerance / from.scale, patches, to.notes);
   for (Vec3& x : mesh.x) x = from.scale * x + from.shift;
-  const Vec3 about = from.point.value_or(centroidOf(mesh));
+  to.parts.point = from.point.value_or(centroidOf(mesh));
   dem::MeshWall made;
   made.wall = dem::makeWall(std::move(mesh.x), std::move(mesh.facets), from.closed);
   made.wall.rigid = true;
   made.wall.material = contactRow(to.scene, to.wall.contactMaterial);
-  const Vec3 velocity = constantOf(to.wall.velocity);
-  if (!to.isSteady()) {
-    dem::prescribe(made, motionOf(to, about), about);
-    dem::moveWall(made, 0.0, 0.0);
-  } else if (norm(velocity) > 0.0 || norm(to.wall.angularVelocity) > 0.0) {
-    dem::prescribe(made, dem::steadyMotion({about, {}, velocity, to.wall.angularVelocity}), about);
-  }
+  to.parts.offsets = dem::vertexOffsets(made.wall, to.parts.point);
   dem::addWall(to.run.grains, std::move(made));
 }
 
+bool isAtRest(const Wall& wall) {
+  return !wall.displacement && !wall.turn && !wall.servo && isConstant(wall.velocity) &&
+         norm(constantOf(wall.velocity)) + norm(wall.angularVelocity) == 0.0;
+}
+/// With a velocity that the primitives keep: they need no path.
+bool isSteady(const Wall& wall, const WallParts& parts) {
+  return !wall.displacement && !wall.turn && !wall.servo && isConstant(wall.velocity) &&
+         parts.endMesh == parts.firstMesh && (norm(wall.angularVelocity) == 0.0 || parts.arms.size() == 1);
+}
+
+void move(const Target& to) {
+  if (isAtRest(to.wall)) return;
+  dem::Model& grains = to.run.grains;
+  if (!isSteady(to.wall, to.parts)) return setMotion({grains, to.run}, to.parts, to.wall, to.scene);
+  to.parts.motion = motionOf(to.wall, to.parts, to.scene);
+  for (std::size_t i = to.parts.firstPrimitive; i < to.parts.endPrimitive; ++i) {
+    dem::primitiveWall(grains, i).velocity = constantOf(to.wall.velocity);
+    dem::primitiveWall(grains, i).angularVelocity = to.wall.angularVelocity;
+  }
+}
+
+void requireOwnName(const Scene& scene, const Wall& wall) {
+  if (wall.name.empty()) return;
+  io::requirePlainName(wall.name, "name");
+  for (const Wall& other : scene.walls)
+    if (&other != &wall && other.name == wall.name)
+      throw InputError("two walls are named \"" + wall.name + "\"", "", "give each a name of its own");
+}
+
 }  // namespace
+
+std::size_t wallNamed(const std::string& name, const Scene& scene) {
+  const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
+  if (isNumber && std::stoul(name) < scene.walls.size()) return std::stoul(name);
+  std::vector<std::string> names;
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    if (!isNumber && scene.walls[w].name == name) return w;
+    if (!scene.walls[w].name.empty()) names.push_back(scene.walls[w].name);
+  }
+  const std::string count = "the scene has " + std::to_string(scene.walls.size()) + ", counted from 0";
+  if (isNumber) throw InputError("there is no wall " + name, "", count);
+  throw InputError("there is no wall \"" + name + "\"", "",
+                   names.empty() ? "give it a \"name\", or write its number: " + count : adviceFor(name, names));
+}
 
 void addWalls(Built& built, const Scene& scene) {
   dem::Model& grains = built.run->grains;
@@ -121,11 +133,17 @@ void addWalls(Built& built, const Scene& scene) {
   const auto meshes = [&] { return grains.terms.all<dem::MeshWallTerm>().size(); };
   for (const Wall& wall : scene.walls)
     atPlace(wall.where, [&] {
+      requireOwnName(scene, wall);
       WallParts parts{.firstPrimitive = primitives(), .firstMesh = meshes()};
-      std::visit([&](const auto& shape) { add({*built.run, wall, scene, built.notes}, shape); }, wall.shape);
+      const Target to{*built.run, wall, scene, built.notes, parts};
+      std::visit([&](const auto& shape) { add(to, shape); }, wall.shape);
       parts.endPrimitive = primitives();
       parts.endMesh = meshes();
-      built.walls.push_back(parts);
+      parts.base.x = parts.point;
+      move(to);
+      if (norm(wall.surfaceVelocity) > 0.0) setSurfaceVelocity(grains, parts, wall.surfaceVelocity);
+      if (!wall.present) setPresence(grains, parts, false);
+      built.walls.push_back(std::move(parts));
     });
 }
 

@@ -51,6 +51,19 @@ void describe(Fields& f, Statics& v) {
 void describe(Fields& f, FindModes& v) {
   f.integer({"count", "of the lowest frequencies of each solid"}, v.count, 1, 1000);
 }
+void describe(Fields& f, LoadChange& v) {
+  f.where(v.where);
+  f.text({"solid", "name of the solid"}, v.solid, true);
+  describe(f, v.load);
+}
+void describe(Fields& f, Changes& v) {
+  f.where(v.where);
+  f.vector({"gravity", "acceleration"}, v.gravity, unit::acceleration);
+  f.object({"contact", "in place of the law before"}, v.contact);
+  f.list({"contacts", "in place of the laws of these pairs before"}, v.contacts);
+  f.list({"walls", "motions, belts and presence of walls"}, v.walls);
+  f.list({"loads", "in place of the load of this kind on the same face set"}, v.loads);
+}
 void describe(Fields& f, Stage& v) {
   static constexpr const char* kinds[] = {"relax", "run", "statics", "modes"};
   f.where(v.where);
@@ -59,6 +72,10 @@ void describe(Fields& f, Stage& v) {
        "bring the system to rest by kinetic damping, run for a time, load the solids alone through equilibria, or find "
        "their frequencies as they are then"},
       v.kind, kinds);
+  f.object({"changes",
+            "at the start of the stage; they last until a later stage changes them again. The time t of their "
+            "expressions counts from the start of this stage"},
+           v.changes);
 }
 void describe(Fields& f, Steps& v) {
   static constexpr const char* automatic[] = {"auto"};

@@ -88,6 +88,9 @@ void describe(Fields& f, SphereWall& v) {
 }
 void describe(Fields& f, SurfaceFile& v) {
   f.file({"file", "triangles: STL, OBJ, PLY, or VTP where the build has VTK"}, v.file);
+  f.fileList({"more_files", "further files of the same wall, which turns and moves as one"}, v.more);
+  f.number({"tolerance", "vertices no farther apart become one, so that edges of gaps and files close"}, v.tolerance,
+           notNegative(unit::length));
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
   f.vector({"shift", "after scaling"}, v.shift, unit::length);
   f.flag({"closed",
@@ -98,17 +101,74 @@ void describe(Fields& f, SurfaceFile& v) {
 }
 void describe(Fields& f, Turn& v) {
   f.vector({"axis", "of any length"}, v.axis, unit::none);
+  f.vector({"point", "on the axis; the point or centre of the wall if not given, and the centre of a box"}, v.point,
+           unit::length);
   f.function({"angle", "may be an expression of the time t; counter-clockwise seen from the tip of the axis"}, v.angle,
              any(unit::angle));
+}
+namespace {
+void pushed(Fields& f, PushedWall& v) {
+  f.number({"mass", "of the wall: larger is slower and smoother; that of all particles at the start if not given"},
+           v.mass, positive(unit::mass));
+  f.number({"speed_limit", "largest speed, as where no grain touches the wall; none if not given"}, v.speedLimit,
+           positive(unit::velocity));
+  f.flag({"weight", "whether gravity acts on the mass, as on that of a lid"}, v.weight);
+}
+constexpr Key turnKey{"turn", "rotation, in place of an angular velocity"};
+constexpr Key servoKey{"servo", "moves the wall so that it keeps a force, a pressure or a torque; in place of a path"};
+constexpr Key beltKey{"surface_velocity",
+                      "of the surface over the wall, as of a belt: along a plane or flat mesh, or a cylinder's axis"};
+}  // namespace
+
+void describe(Fields& f, KeptForce& v) {
+  f.function({"force", "on the wall, along the axis: may be an expression of the time t"}, v.force, any(unit::force));
+  pushed(f, v);
+}
+void describe(Fields& f, KeptPressure& v) {
+  f.function({"pressure", "force on the wall along the axis over the area: may be an expression of the time t"},
+             v.pressure, any(unit::pressure));
+  f.number({"area", "over which the pressure acts"}, v.area, positive(unit::area));
+  pushed(f, v);
+}
+void describe(Fields& f, KeptTorque& v) {
+  f.function({"torque", "on the wall, about the axis: may be an expression of the time t"}, v.torque,
+             any(unit::torque));
+  f.vector({"point", "on the axis; the point or centre of the wall if not given"}, v.point, unit::length);
+  f.number({"moment_of_inertia", "about the axis; that of all particles at the start if not given"}, v.momentOfInertia,
+           positive(unit::inertia));
+  f.number({"speed_limit", "largest angular velocity; none if not given"}, v.speedLimit, positive(unit::spin));
+}
+void describe(Fields& f, Servo& v) {
+  static constexpr const char* kinds[] = {"force", "pressure", "torque"};
+  f.oneOf({"keeps", "what contacts balance at rest"}, v.keeps, kinds);
+  f.vector({"axis", "along which, or about which, the load pushes the wall; of any length"}, v.axis, unit::none);
+  f.number({"damping", "fraction of the unbalanced force that acts against the motion; 0: the wall moves freely"},
+           v.damping, {unit::none, 0.0, 1.0, false, true});
 }
 void describe(Fields& f, Wall& v) {
   static constexpr const char* shapes[] = {"plane", "box", "cylinder", "sphere", "mesh"};
   f.where(v.where);
   f.oneOf({"shape", "of the wall"}, v.shape, shapes);
+  f.text({"name", "for probes and changes: letters, digits, '_', '-' and '.', with a letter first"}, v.name, false);
   contactMaterial(f, v.contactMaterial);
   path(f, v.velocity, v.displacement);
   f.vector({"angular_velocity", "constant, about an axis through the point or centre"}, v.angularVelocity, unit::spin);
-  f.object({"turn", "rotation about the same point, in place of an angular velocity"}, v.turn);
+  f.object(turnKey, v.turn);
+  f.object(servoKey, v.servo);
+  f.vector(beltKey, v.surfaceVelocity, unit::velocity);
+  f.flag({"present", "at the start; a stage may take the wall away or put it in place"}, v.present);
+}
+void describe(Fields& f, WallChange& v) {
+  f.where(v.where);
+  f.nameOrNumber({"wall", "its name, or which item of \"walls\", counted from 0"}, v.wall);
+  f.functions({"velocity", "ends the motion before; may be expressions of t"}, v.velocity, unit::velocity);
+  f.functions({"displacement", "ends the motion before; from where the wall is then; expressions of t"}, v.displacement,
+              unit::length);
+  f.vector({"angular_velocity", "ends the motion before; constant"}, v.angularVelocity, unit::spin);
+  f.object(turnKey, v.turn);
+  f.object(servoKey, v.servo);
+  f.vector(beltKey, v.surfaceVelocity, unit::velocity);
+  f.flag({"present", "false takes the wall away, true puts it in place; as before if not given"}, v.present);
 }
 
 // ---- clumps, insertions, outlets

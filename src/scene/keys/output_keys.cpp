@@ -15,7 +15,12 @@ void describe(Fields& f, NodeProbe& v) {
   f.vector({"at", "position; the probe follows the node nearest to it at the start"}, v.at, unit::length);
 }
 void describe(Fields& f, WallProbe& v) {
-  f.integer({"wall", "which item of \"walls\", counted from 0"}, v.wall, 0, 1000000);
+  f.nameOrNumber({"wall", "its name, or which item of \"walls\", counted from 0"}, v.wall);
+}
+void describe(Fields& f, SolidProbe& v) {
+  solid(f, v.solid);
+  f.text({"on", "face set of its surface couplings; all of them if not given"}, v.on, false);
+  f.vector({"point", "that moments are about; the origin if not given"}, v.point, unit::length);
 }
 void describe(Fields& f, DriveProbe& v) {
   f.integer({"drive", "which item of \"drives\", counted from 0"}, v.drive, 0, 1000000);
@@ -26,14 +31,14 @@ void describe(Fields& f, SupportProbe& v) {
 }
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {
-  static constexpr const char* kinds[] = {"grain", "node", "wall", "drive", "support", "region"};
+  static constexpr const char* kinds[] = {"grain", "node", "wall", "solid", "drive", "support", "region"};
   f.where(v.where);
   f.text({"name", "of its columns: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);
-  f.oneOf(
-      {"of",
-       "position and velocity of a grain, displacement of a node, force of the grains on a wall, force and moment of "
-       "a drive on its grains or of a support on its solid, or number and mean velocity of the grains in a region"},
-      v.of, kinds);
+  f.oneOf({"of",
+           "position and velocity of a grain, displacement of a node, force and moment of the grains on a wall and its "
+           "displacement, force and moment of the grains on a solid, force and moment of a drive on its grains or of a "
+           "support on its solid, or number and mean velocity of the grains in a region"},
+          v.of, kinds);
 }
 void describe(Fields& f, Output& v) {
   static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts",

@@ -68,11 +68,18 @@ public:
     add(key, listSchema({{"type", Json::array({"integer", "string"})}, {"minimum", 1}}, 3), value[0] < 1);
   }
   void flag(Key key, bool& value) override { add(key, {{"type", "boolean"}}, false)["default"] = value; }
+  void flag(Key key, std::optional<bool>&) override { add(key, {{"type", "boolean"}}, false); }
   void text(Key key, std::string& value, bool needed) override {
     Json& entry = add(key, {{"type", "string"}, {"minLength", 1}}, needed);
     if (!value.empty()) entry["default"] = value;
   }
   void file(Key key, std::string&) override { add(key, {{"type", "string"}, {"minLength", 1}}, true); }
+  void fileList(Key key, std::vector<std::string>&) override {
+    add(key, {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}}, false);
+  }
+  void nameOrNumber(Key key, std::string&) override {
+    add(key, {{"type", Json::array({"string", "integer"})}, {"minLength", 1}}, true);
+  }
   void word(Key key, std::string& value, Words words) override {
     add(key, {{"enum", listOf(words)}}, false)["default"] = value;
   }

@@ -140,8 +140,9 @@ std::vector<std::string> likelyQuantities(const std::string& whole) {
 }
 
 std::string siName(const Dimension& d) {
-  constexpr std::array<std::pair<Dimension, const char*>, 6> named = {{{unit::pressure, "Pa"},
+  constexpr std::array<std::pair<Dimension, const char*>, 7> named = {{{unit::pressure, "Pa"},
                                                                        {unit::force, "N"},
+                                                                       {unit::torque, "N m"},
                                                                        {unit::pressurePerLength, "Pa/m"},
                                                                        {unit::stiffness, "N/m"},
                                                                        {unit::penalty, "Pa/m2"},

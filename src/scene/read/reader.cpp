@@ -105,22 +105,30 @@ public:
     if (node->kind != Node::Kind::boolean) refuse(*node, named(key) + " is " + nameOf(*node), "write true or false");
     value = node->boolean;
   }
+  void flag(Key key, std::optional<bool>& value) override {
+    bool given = false;
+    flag(key, given);
+    if (!document_.keysOnly && node_.find(key.name)) value = given;
+  }
   void text(Key key, std::string& value, bool needed) override {
     if (const Node* node = take(key, needed)) value = textOf(*node, key);
   }
   void file(Key key, std::string& value) override {
+    if (const Node* node = take(key, true)) value = fileOf(*node, key);
+  }
+  void fileList(Key key, std::vector<std::string>& values) override {
+    const Node* node = take(key, false);
+    if (!node) return;
+    if (node->kind != Node::Kind::list)
+      refuse(*node, named(key) + " is " + nameOf(*node), "write a list of names of files");
+    values.clear();
+    for (const Node& item : node->items) values.push_back(fileOf(item, key));
+  }
+  void nameOrNumber(Key key, std::string& value) override {
     const Node* node = take(key, true);
     if (!node) return;
-    const std::filesystem::path path = folderOf(*node) / textOf(*node, key);
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error))
-      refuse(*node, path.string() + " is a folder", "give the name of a file in it");
-    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-      refuse(*node, path.string() + " is a pipe or a device", "give the name of a file");
-    if (!std::filesystem::is_regular_file(path, error))
-      refuse(*node, "there is no file " + path.string(), "correct the name, which is relative to the scene's folder");
-    value = std::filesystem::absolute(path).lexically_normal().string();
-    document_.files.insert(value);
+    value = node->kind == Node::Kind::number ? std::to_string(static_cast<int>(wholeOf(*node, key, 0.0, 1e6)))
+                                             : textOf(*node, key);
   }
   void word(Key key, std::string& value, Words words) override {
     if (const Node* node = take(key, false)) value = wordOf(*node, key, words);
@@ -246,6 +254,19 @@ private:
       throw InputError("\"" + member.key + "\" cannot name a parameter", placeOf(member.place),
                        "take another name: expressions have " +
                            std::string(member.key == "t" ? "the time" : "a function or constant") + " of this one");
+  }
+  std::string fileOf(const Node& node, Key key) const {
+    const std::filesystem::path path = folderOf(node) / textOf(node, key);
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+      refuse(node, path.string() + " is a folder", "give the name of a file in it");
+    if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
+      refuse(node, path.string() + " is a pipe or a device", "give the name of a file");
+    if (!std::filesystem::is_regular_file(path, error))
+      refuse(node, "there is no file " + path.string(), "correct the name, which is relative to the scene's folder");
+    const std::string name = std::filesystem::absolute(path).lexically_normal().string();
+    document_.files.insert(name);
+    return name;
   }
   const std::filesystem::path folderOf(const Node& node) const {
     return node.place.file ? node.place.file->parent_path() : document_.folder;

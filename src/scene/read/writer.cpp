@@ -42,10 +42,20 @@ public:
   }
   void cells(Key key, std::array<int, 3>& value) override { json[key.name] = value; }
   void flag(Key key, bool& value) override { json[key.name] = value; }
+  void flag(Key key, std::optional<bool>& value) override {
+    if (value) json[key.name] = *value;
+  }
   void text(Key key, std::string& value, bool) override {
     if (!value.empty()) json[key.name] = value;
   }
   void file(Key key, std::string& value) override { json[key.name] = value; }
+  void fileList(Key key, std::vector<std::string>& values) override {
+    if (!values.empty()) json[key.name] = values;
+  }
+  void nameOrNumber(Key key, std::string& value) override {
+    const bool isNumber = !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
+    json[key.name] = isNumber ? Json(std::stoi(value)) : Json(value);
+  }
   void word(Key key, std::string& value, Words) override { json[key.name] = value; }
   void wordList(Key key, std::vector<std::string>& value, Words, bool) override { json[key.name] = value; }
   void where(std::string&) override {}

@@ -114,7 +114,7 @@ void reportMemory(const Built& built, std::ostream& log) {
 std::vector<std::string> seriesColumns(const Scene& scene) {
   Built built = build(scene);
   start(built, scene);
-  return Series(built, scene.output.probes, {.loadSteps = hasStatics(scene)}).table().names();
+  return Series(built, scene, {.loadSteps = hasStatics(scene)}).table().names();
 }
 
 void check(const Scene& scene, std::ostream& log) {
@@ -127,7 +127,7 @@ void check(const Scene& scene, std::ostream& log) {
     reportWarnings(built, scene, false, log);
     throw;
   }
-  if (plan.series > 0) const Series columns(built, scene.output.probes, {});
+  if (plan.series > 0) const Series columns(built, scene, {});
   reportParts(built, scene, log);
   reportTime(built, scene, plan, log);
   reportOutput(built, scene, plan, log);

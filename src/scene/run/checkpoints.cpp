@@ -27,7 +27,7 @@ template <class Archive, class P>
 void archiveProgress(Archive& archive, P& p) {
   archive(p.stage, p.macroStep, p.rows, p.frames, p.rest.report.atRest, p.rest.report.residual, p.rest.report.steps,
           p.rest.stops, p.rest.before, p.rest.quiet, p.remarks, p.toldOfStep, p.deep.ids, p.deep.overlap, p.deep.worst,
-          p.deep.time);
+          p.deep.time, p.begun);
 }
 
 }  // namespace

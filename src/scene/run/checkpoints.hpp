@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "build/changes.hpp"
 #include "dovetail/coupling/rest.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/io/provenance.hpp"
@@ -36,7 +37,8 @@ struct Progress {
   std::vector<double> frames;   ///< their times, s
   coupling::RestProgress rest;  ///< of a stage that brings to rest
   std::vector<Remark> remarks;
-  bool toldOfStep = false;  ///< that it has become too large
+  bool toldOfStep = false;        ///< that it has become too large
+  std::vector<StageStart> begun;  ///< of all stages so far
   DeepGrains deep;
 };
 

@@ -56,7 +56,7 @@ public:
     plan_ = planOf(built_, scene_);
     if (plan_.series > 0)
       series_ = std::make_unique<Series>(
-          built_, scene_.output.probes,
+          built_, scene_,
           SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series, hasStatics(scene_)});
     if (goesOn) takeState();
     if (plan_.frames > 0)
@@ -74,6 +74,7 @@ public:
   bool finish() {
     counted_ = Clock::now();
     for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.macroStep = 0) {
+      begin();
       const Stage& stage = scene_.stages[progress_.stage];
       const auto* const relax = std::get_if<Relax>(&stage.kind);
       const auto* const statics = std::get_if<Statics>(&stage.kind);
@@ -138,6 +139,12 @@ private:
                true);
   }
 
+  void begin() {
+    if (progress_.begun.size() > progress_.stage) return;
+    progress_.begun.push_back(startOf(built_));
+    beginStage(built_, scene_, progress_.stage, progress_.begun.back(), Grains::areThere);
+    warn();
+  }
   bool comeToRest(const Relax& relax) {
     coupling::RestProgress& rest = progress_.rest;
     const RestCriterion criterion{relax.kinetic, relax.macroSteps};
@@ -299,8 +306,11 @@ private:
 
   void takeState() {
     const Checkpoint last = lastCheckpoint(settings_.folder, log_, Damaged::isSetAside);
-    adopt(last, identity_, *built_.run);
     progress_ = last.progress;
+    if (last.scene == identity_)
+      for (std::size_t k = 0; k < progress_.begun.size() && k < scene_.stages.size(); ++k)
+        beginStage(built_, scene_, k, progress_.begun[k], Grains::follow);
+    adopt(last, identity_, *built_.run);
     seconds_ = readTimes(settings_.folder, scene_.stages.size());
     if (settings_.until) {
       lengthen(scene_, plan_, progress_, *built_.run, *settings_.until);

@@ -113,8 +113,12 @@ void Frames::add(const Built& built) {
   if (!impl_->contacts.empty()) addLines(impl_->contacts[0], time, contactLines(grains));
   if (!impl_->bonds.empty()) addLines(impl_->bonds[0], time, bondLines(grains));
   for (std::size_t s = 0; s < impl_->solids.size(); ++s) impl_->addSolid(s, built, time);
-  for (std::size_t w = 0; w < impl_->walls.size(); ++w)
-    addWall(impl_->walls[w], time, dem::meshWall(grains, impl_->meshWalls[w]));
+  static const dem::MeshWall nothing{};  // in place of a wall that is away
+  const auto meshes = grains.terms.all<dem::MeshWallTerm>();
+  for (std::size_t w = 0; w < impl_->walls.size(); ++w) {
+    const dem::MeshWallTerm& term = *meshes[impl_->meshWalls[w]];
+    addWall(impl_->walls[w], time, term.present ? term.mesh : nothing);
+  }
   impl_->times.push_back(time);
 }
 

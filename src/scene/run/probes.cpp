@@ -5,9 +5,11 @@
 #include <utility>
 
 #include "build/parts.hpp"
+#include "build/wall_motion.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/io/names.hpp"
+#include "dovetail/surface/surface_contact.hpp"
 
 namespace dovetail::scene {
 
@@ -36,11 +38,34 @@ HeldBy holdersOf(const coupling::SolidSide& side, const std::vector<int>& set) {
   return found;
 }
 
-Vec3 forceOn(const dem::Model& grains, const WallParts& parts) {
-  Vec3 force;
-  for (std::size_t i = parts.firstPrimitive; i < parts.endPrimitive; ++i) force += dem::primitiveWall(grains, i).force;
-  for (std::size_t i = parts.firstMesh; i < parts.endMesh; ++i) force += dem::totalForce(dem::meshWall(grains, i).wall);
-  return force;
+/// Force on a wall, N, and its moment about a point, N m.
+Momenta forceOn(const dem::Model& grains, const WallParts& parts, const Vec3& about) {
+  Momenta sum;
+  for (std::size_t i = parts.firstPrimitive; i < parts.endPrimitive; ++i) {
+    const dem::PrimitiveWall& wall = dem::primitiveWall(grains, i);
+    sum.linear += wall.force;
+    sum.angular += wall.torque + cross(wall.point - about, wall.force);
+  }
+  for (std::size_t i = parts.firstMesh; i < parts.endMesh; ++i) {
+    sum.linear += dem::totalForce(dem::meshWall(grains, i).wall);
+    sum.angular += dem::totalMoment(dem::meshWall(grains, i).wall, about);
+  }
+  return sum;
+}
+
+/// Of the contacts on the surface of a solid.
+Momenta forceOn(const Built& built, const coupling::SolidSide& side, const Vec3& about,
+                const std::vector<std::size_t>& contacts) {
+  Momenta sum;
+  const auto all = std::as_const(built.run->grains).terms.all<surface::SurfaceContact>();
+  for (const std::size_t k : contacts) {
+    const coupling::NodalLoad& load = all[k]->coupling().load();
+    for (const int node : load.touched) {
+      const auto n = static_cast<std::size_t>(node);
+      sum.add(side.nodes().X[n] + side.nodes().u[n] - about, load.force[n]);
+    }
+  }
+  return sum;
 }
 
 void appendRegion(const dem::Particles& particles, const geometry::Box& box, std::vector<double>& row) {
@@ -67,7 +92,7 @@ void Probes::nameVector(const std::string& name, const std::string& unit) {
 }
 
 template <>
-Probes::Values Probes::find(const Built& built, const std::string& name, const GrainProbe& kind) {
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const GrainProbe& kind) {
   const dem::Particles& particles = built.run->grains.particles;
   if (particles.size() == 0) throw InputError("there are no grains at the start", "", "leave the probe out");
   const std::int64_t id = particles.id[nearestTo(kind.at, particles.x)];
@@ -84,7 +109,7 @@ Probes::Values Probes::find(const Built& built, const std::string& name, const G
 }
 
 template <>
-Probes::Values Probes::find(const Built& built, const std::string& name, const NodeProbe& kind) {
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const NodeProbe& kind) {
   const std::size_t solid = solidNamed(kind.solid, *built.run);
   const std::size_t node = nearestTo(kind.at, built.run->solid(solid).nodes().X);
   nameVector(name + "_u", "m");
@@ -94,17 +119,48 @@ Probes::Values Probes::find(const Built& built, const std::string& name, const N
 }
 
 template <>
-Probes::Values Probes::find(const Built& built, const std::string& name, const WallProbe& kind) {
-  const auto item = static_cast<std::size_t>(kind.wall);
-  if (item >= built.walls.size())
-    throw InputError("there is no wall " + std::to_string(kind.wall), "",
-                     "the scene has " + std::to_string(built.walls.size()) + ", counted from 0");
+Probes::Values Probes::find(const Built& built, const Scene& scene, const std::string& name, const WallProbe& kind) {
+  const std::size_t item = wallNamed(kind.wall, scene);
   nameVector(name + "_", "N");
-  return [item](const Built& now, std::vector<double>& row) { append(row, forceOn(now.run->grains, now.walls[item])); };
+  nameVector(name + "_m", "Nm");
+  nameVector(name + "_u", "m");
+  const Vec3 start = built.walls[item].point + built.walls[item].centre;
+  return [item, start](const Built& now, std::vector<double>& row) {
+    const WallParts& wall = now.walls[item];
+    const Vec3 centre = centreOf(wall, now.run->grains);
+    const Momenta force = forceOn(now.run->grains, wall, centre);
+    append(row, force.linear);
+    append(row, force.angular);
+    append(row, centre - start);
+  };
 }
 
 template <>
-Probes::Values Probes::find(const Built& built, const std::string& name, const DriveProbe& kind) {
+Probes::Values Probes::find(const Built& built, const Scene& scene, const std::string& name, const SolidProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  std::vector<std::size_t> contacts;
+  std::size_t next = 0;
+  for (const Coupling& coupling : scene.couplings) {
+    const auto* const surface = std::get_if<SurfaceContact>(&coupling.kind);
+    if (!surface) continue;
+    if (coupling.solid == kind.solid && (kind.on.empty() || kind.on == surface->on)) contacts.push_back(next);
+    ++next;
+  }
+  if (contacts.empty())
+    throw InputError(
+        "\"" + kind.solid + "\" has no surface coupling" + (kind.on.empty() ? "" : " on \"" + kind.on + "\""), "",
+        "give it one, or leave the probe out");
+  nameVector(name + "_", "N");
+  nameVector(name + "_m", "Nm");
+  return [=, about = kind.point.value_or(Vec3{})](const Built& now, std::vector<double>& row) {
+    const Momenta force = forceOn(now, std::as_const(*now.run).solid(solid), about, contacts);
+    append(row, force.linear);
+    append(row, force.angular);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const DriveProbe& kind) {
   const auto item = static_cast<std::size_t>(kind.drive);
   if (const auto there = std::as_const(built.run->grains).terms.all<dem::DriveTerm>().size(); item >= there)
     throw InputError("there is no drive " + std::to_string(kind.drive), "",
@@ -119,7 +175,7 @@ Probes::Values Probes::find(const Built& built, const std::string& name, const D
 }
 
 template <>
-Probes::Values Probes::find(const Built& built, const std::string& name, const SupportProbe& kind) {
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const SupportProbe& kind) {
   const std::size_t solid = solidNamed(kind.solid, *built.run);
   const std::vector<int>& set = fem::nodeSet(built.meshes[solid], kind.on);
   const HeldBy by = holdersOf(built.run->solid(solid), set);
@@ -148,7 +204,7 @@ Probes::Values Probes::find(const Built& built, const std::string& name, const S
 }
 
 template <>
-Probes::Values Probes::find(const Built&, const std::string& name, const RegionProbe& kind) {
+Probes::Values Probes::find(const Built&, const Scene&, const std::string& name, const RegionProbe& kind) {
   names_.push_back(name + "_particles");
   nameVector(name + "_v", "m_per_s");
   return [box = kind.box](const Built& now, std::vector<double>& row) {
@@ -156,11 +212,11 @@ Probes::Values Probes::find(const Built&, const std::string& name, const RegionP
   };
 }
 
-Probes::Probes(const Built& built, const std::vector<Probe>& probes) {
-  for (const Probe& probe : probes)
+Probes::Probes(const Built& built, const Scene& scene) {
+  for (const Probe& probe : scene.output.probes)
     atPlace(probe.where, [&] {
       io::requirePlainName(probe.name, "name");
-      std::visit([&](const auto& kind) { values_.push_back(find(built, probe.name, kind)); }, probe.of);
+      std::visit([&](const auto& kind) { values_.push_back(find(built, scene, probe.name, kind)); }, probe.of);
     });
 }
 

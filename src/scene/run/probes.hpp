@@ -15,7 +15,7 @@ namespace dovetail::scene {
 class Probes {
 public:
   /// @throws InputError with the place in the scene file of a probe of what is not there
-  Probes(const Built& built, const std::vector<Probe>& probes);
+  Probes(const Built& built, const Scene& scene);
   /// Names of columns with their units.
   const std::vector<std::string>& names() const { return names_; }
   /// Appends the values as they are now; NaN for a grain that has left.
@@ -24,7 +24,7 @@ public:
 private:
   using Values = std::function<void(const Built&, std::vector<double>&)>;
   template <class Kind>
-  Values find(const Built& built, const std::string& name, const Kind& kind);
+  Values find(const Built& built, const Scene& scene, const std::string& name, const Kind& kind);
   void nameVector(const std::string& name, const std::string& unit);
 
   std::vector<std::string> names_;

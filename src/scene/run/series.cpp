@@ -69,7 +69,8 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels, con
 }
 
 /// Channels of the run at its start, and those that it may come to have. @param loads  there are load steps
-std::vector<std::string> channelsOf(coupling::CoupledRun& run, bool loads) {
+std::vector<std::string> channelsOf(const Built& built, bool loads, bool changes) {
+  coupling::CoupledRun& run = *built.run;
   std::vector<std::string> names;
   const auto add = [&](const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -91,7 +92,11 @@ std::vector<std::string> channelsOf(coupling::CoupledRun& run, bool loads) {
     for (const char* const later : {"load steps", "work of loads in load steps", "dissipated in load steps"})
       add(run.solid(s).name + ": " + later);
   }
+  if (std::ranges::any_of(built.walls, [](const WallParts& wall) { return wall.servo.has_value(); }) || changes)
+    for (const char* const later : {"damping", "work of external forces (minus)"})
+      add(std::string("particles: ") + later);
   add("kinetic damping");
+  if (changes) add("changes (minus)");
   return names;
 }
 
@@ -122,9 +127,11 @@ std::vector<const dem::Insertion*> insertionsOf(const Built& built) {
   return all;
 }
 
-Series::Series(Built& built, const std::vector<Probe>& probes, SeriesFiles files)
-    : channels_(channelsOf(*built.run, files.loadSteps)),
-      probes_(built, probes),
+Series::Series(Built& built, const Scene& scene, SeriesFiles files)
+    : channels_(channelsOf(
+          built, files.loadSteps,
+          std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes.has_value(); }))),
+      probes_(built, scene),
       table_(columnsOf(channels_, built, probes_.names())),
       files_(std::move(files)),
       path_(files_.folder / "series.csv"),

@@ -35,7 +35,7 @@ struct SeriesFiles {
 class Series {
 public:
   /// @throws InputError for a probe of what is not there, and where HDF5 is wanted of a build without
-  Series(Built& built, const std::vector<Probe>& probes, SeriesFiles files);
+  Series(Built& built, const Scene& scene, SeriesFiles files);
   /// Goes on with what an earlier run has written, of which so many rows are kept.
   /// @throws InputError if the file does not hold them
   void takeUp(std::uint64_t rows);

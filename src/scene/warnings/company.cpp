@@ -100,9 +100,12 @@ bool isBehindWall(const dem::Model& grains, const geometry::Box& box) {
   return false;
 }
 
-bool anyMoves(const std::vector<Wall>& walls) {
-  return std::ranges::any_of(walls, [](const Wall& one) {
-    return one.turn || !isConstant(one.displacement.value_or(one.velocity)) || norm(constantOf(one.velocity)) > 0.0;
+bool anyMoves(const Scene& scene) {
+  if (std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes && !one.changes->walls.empty(); }))
+    return true;
+  return std::ranges::any_of(scene.walls, [](const Wall& one) {
+    return one.servo || one.turn || !isConstant(one.displacement.value_or(one.velocity)) ||
+           norm(constantOf(one.velocity)) > 0.0;
   });
 }
 
@@ -114,7 +117,7 @@ void lookAtRegion(const Built& built, const Scene& scene, const std::string& who
     lines.push_back(begin + " stays empty, as the scene has no grains: add grains, or leave the region out.");
   else if (isBeyondReach(built, scene, region))
     lines.push_back(begin + " is out of reach of all grains: move it, or check its unit.");
-  else if (!anyMoves(scene.walls) && isBehindWall(built.run->grains, region))
+  else if (!anyMoves(scene) && isBehindWall(built.run->grains, region))
     lines.push_back(begin +
                     " lies behind a wall, out of reach of grains: move it inside, or leave a side of walls open.");
 }

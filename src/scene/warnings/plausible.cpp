@@ -120,7 +120,10 @@ public:
   }
   void cells(Key, std::array<int, 3>&) override {}
   void flag(Key, bool&) override {}
+  void flag(Key, std::optional<bool>&) override {}
   void text(Key, std::string&, bool) override {}
+  void fileList(Key, std::vector<std::string>&) override {}
+  void nameOrNumber(Key, std::string&) override {}
   void file(Key, std::string&) override {}
   void word(Key, std::string&, Words) override {}
   void wordList(Key, std::vector<std::string>&, Words, bool) override {}

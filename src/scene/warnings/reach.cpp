@@ -39,6 +39,12 @@ bool slides(const dem::Model& grains, const Vec3& gravity) {
   return false;
 }
 
+/// Ways that nobody knows, or that stages change.
+bool movesUnforeseen(const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes.has_value(); }) ||
+         std::ranges::any_of(scene.walls, [](const Wall& one) { return one.servo.has_value(); });
+}
+
 /// Where grains are and enter, and where they fall from there.
 std::vector<Extent> sourcesOf(const Built& built, const Scene& scene) {
   std::vector<Extent> all(1);
@@ -100,7 +106,7 @@ bool passesBy(const Built& built, const Scene& scene, std::size_t solid) {
 
 bool isBeyondReach(const Built& built, const Scene& scene, const geometry::Box& box) {
   std::vector<Extent> sources = sourcesOf(built, scene);
-  if (sources.empty() || slides(built.run->grains, scene.gravity)) return false;
+  if (movesUnforeseen(scene) || sources.empty() || slides(built.run->grains, scene.gravity)) return false;
   const double spread = sizeOfWalls(built, scene, sources) + speedOf(built, scene) * durationOf(scene) +
                         farthestOf(scene.walls, scene) + farthestOf(scene.drives, scene);
   for (Extent& source : sources) {
@@ -112,9 +118,9 @@ bool isBeyondReach(const Built& built, const Scene& scene, const geometry::Box& 
 }
 
 bool isOutOfReach(const Built& built, const Scene& scene, std::size_t solid) {
-  if (passesBy(built, scene, solid)) return true;
+  if (!movesUnforeseen(scene) && passesBy(built, scene, solid)) return true;
   std::vector<Extent> sources = sourcesOf(built, scene);
-  if (sources.empty() || slides(built.run->grains, scene.gravity)) return false;
+  if (movesUnforeseen(scene) || sources.empty() || slides(built.run->grains, scene.gravity)) return false;
   Extent body;
   body.add(built.meshes[solid].X);
   const double spread = body.size() + sizeOfWalls(built, scene, sources) + speedOf(built, scene) * durationOf(scene) +

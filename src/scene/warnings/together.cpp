@@ -88,6 +88,21 @@ std::string remedyFor(const Wall& wall, const Scene& scene) {
   return "change \"inside\" or the radius, or move one of the two";
 }
 
+// ---- periods
+
+/// Grains must not touch two images of one grain.
+void requirePeriods(const dem::Model& grains, const Scene& scene) {
+  const double least = 4.0 * largestRadius(scene, grains.particles);
+  for (int k = 0; k < 3; ++k)
+    if (const geometry::Periodicity& space = grains.pairs.periodicity();
+        space.axes[static_cast<std::size_t>(k)] && space.length(k) < least)
+      throw InputError(std::string("the period along ") + "xyz"[k] + " is " + rounded(space.length(k)) +
+                           " m, below twice the largest diameter",
+                       scene.periodic->where, "give it more than " + rounded(least) + " m, or take smaller grains");
+}
+
+}  // namespace
+
 void requireBefore(const dem::Model& grains, const Scene& scene, std::size_t item, const WallParts& parts) {
   const dem::Particles& p = grains.particles;
   const std::vector<char> driven = drivenIn(grains);
@@ -105,21 +120,6 @@ void requireBefore(const dem::Model& grains, const Scene& scene, std::size_t ite
   }
 }
 
-// ---- periods
-
-/// Grains must not touch two images of one grain.
-void requirePeriods(const dem::Model& grains, const Scene& scene) {
-  const double least = 4.0 * largestRadius(scene, grains.particles);
-  for (int k = 0; k < 3; ++k)
-    if (const geometry::Periodicity& space = grains.pairs.periodicity();
-        space.axes[static_cast<std::size_t>(k)] && space.length(k) < least)
-      throw InputError(std::string("the period along ") + "xyz"[k] + " is " + rounded(space.length(k)) +
-                           " m, below twice the largest diameter",
-                       scene.periodic->where, "give it more than " + rounded(least) + " m, or take smaller grains");
-}
-
-}  // namespace
-
 double largestRadius(const Scene& scene, const dem::Particles& particles) {
   double largest = 0.0;
   for (const double radius : particles.radius) largest = std::max(largest, radius);
@@ -136,7 +136,8 @@ void requireTogether(Built& built, const Scene& scene) {
   const dem::Model& grains = built.run->grains;
   requirePeriods(grains, scene);
   lookAtDomain(built, scene);
-  for (std::size_t w = 0; w < scene.walls.size(); ++w) requireBefore(grains, scene, w, built.walls[w]);
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (scene.walls[w].present) requireBefore(grains, scene, w, built.walls[w]);
 }
 
 }  // namespace dovetail::scene

@@ -8,6 +8,7 @@
 #include "build/time_functions.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/sample.hpp"
+#include "dovetail/dem/model/walls.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/surface/skin.hpp"
@@ -192,6 +193,31 @@ void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t numbe
   }
 }
 
+const TimeValue& loadOf(const KeptForce& kept) { return kept.force; }
+const TimeValue& loadOf(const KeptPressure& kept) { return kept.pressure; }
+const TimeValue& loadOf(const KeptTorque& kept) { return kept.torque; }
+
+/// Walls that fly until they hit.
+void lookAtServos(const Built& built, const Scene& scene, Lines& lines) {
+  constexpr double fast = 1.0;  // m/s
+  const dem::Model& grains = built.run->grains;
+  for (std::size_t w = 0; w < scene.walls.size(); ++w) {
+    if (!scene.walls[w].servo || built.walls[w].arms.empty()) continue;
+    const dem::PrimitiveWall& wall = dem::primitiveWall(grains, built.walls[w].firstPrimitive);
+    if (!wall.servo || wall.servo->turns) continue;
+    double gap = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < grains.particles.size(); ++i)
+      gap = std::min(gap, dem::distanceTo(wall, grains.particles.x[i]).distance - grains.particles.radius[i]);
+    const double push = (1.0 - wall.servo->localDamping) * std::abs(wall.servo->load) / wall.servo->mass;
+    const double speed = std::min(wall.servo->fastest, std::sqrt(2.0 * push * std::max(0.0, gap)));
+    if (speed > fast)
+      lines.push_back("walls." + std::to_string(w) +
+                      " touches no grain at the start, and its load drives it into the " + "first one with " +
+                      (std::isfinite(speed) ? rounded(speed) + " m/s" : "any speed") +
+                      ": give its servo a speed_limit.");
+  }
+}
+
 /// What moves has no rest; steady velocities are refused.
 void lookAtStages(const Scene& scene, Lines& lines) {
   const auto relaxes = [](const Stage& stage) { return std::holds_alternative<Relax>(stage.kind); };
@@ -199,6 +225,9 @@ void lookAtStages(const Scene& scene, Lines& lines) {
   const auto moves = [](const auto& one) {
     if constexpr (requires { one.turn; })
       if (one.turn && !isConstant(one.turn->angle)) return true;
+    if constexpr (requires { one.servo; })
+      if (one.servo && !std::visit([](const auto& kept) { return isConstant(loadOf(kept)); }, one.servo->keeps))
+        return true;
     if constexpr (requires { one.spin; })
       if (!isConstant(one.spin)) return true;
     return !isConstant(one.displacement.value_or(one.velocity));
@@ -280,6 +309,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene, bool s
   lookAtNames(scene, lines);
   lookAtStages(scene, lines);
   lookAtLoadSteps(scene, lines);
+  lookAtServos(built, scene, lines);
   return onePerKind(lines);
 }
 

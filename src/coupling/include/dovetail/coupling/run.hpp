@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <string>
@@ -127,6 +128,10 @@ public:
   ///         particles. NumericalError naming solid and load step where there is no equilibrium
   std::vector<std::string> loadStep(std::int64_t step, std::int64_t steps, double time);
 
+  /// Changes parts of a started run between macro steps: gravity, laws, walls, functions of time of loads and supports.
+  /// Forces are found anew; the energy that this adds at once is booked as "changes (minus)". The step stays: one that
+  /// is now beyond the limit is told in grains.passed.
+  void change(const std::function<void()>& act);
   /// Sets all velocities to zero, between macro steps; the energy that this takes is booked as "kinetic damping".
   void stop();
   /// Switches numerical damping of implicit solids on or off, from the next macro step: it damps oscillations with
@@ -190,8 +195,8 @@ std::vector<SolidOfState> solidsOf(const std::vector<char>& state);
 /// advances by the macro steps taken, also for loads that are functions of it. Accuracy on the way does not matter:
 /// with a step of half the limit, rest takes a third of the macro steps that a fifth of it needs. Spheres without
 /// rolling resistance may roll on for ever. The residual is the largest kinetic energy of the last oscillation, or
-/// since, over the elastic energy, 0 where nothing moves at all; at rest it is within the tolerance in two successive
-/// oscillations. Steps are macro steps.
+/// since, over the elastic energy, 0 where nothing moves at all, or the square of dem::unbalancedLoads if that is
+/// larger; at rest it is within the tolerance in two successive oscillations. Steps are macro steps.
 /// @throws InputError for a criterion out of range; NumericalError as advance
 RestReport relax(CoupledRun& run, const RestCriterion& rest = {.tolerance = 1e-8});
 

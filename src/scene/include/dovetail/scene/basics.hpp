@@ -43,6 +43,7 @@ using TimeVector = std::array<TimeValue, 3>;
 struct Turn {
   Vec3 axis = requiredVector;
   TimeValue angle{required, ""};  ///< rad
+  std::optional<Vec3> point;      ///< on the axis, m; not given: that of what turns
 };
 
 }  // namespace dovetail::scene

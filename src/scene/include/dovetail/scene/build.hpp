@@ -2,20 +2,37 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "dovetail/coupling/run.hpp"
+#include "dovetail/dem/walls/rigid_wall.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/scene/scene.hpp"
 
 namespace dovetail::scene {
 
-/// What an item of a scene's walls has become: numbers of dem::primitiveWall and dem::meshWall, ends excluded.
+/// What an item of a scene's walls has become: numbers of dem::primitiveWall and dem::meshWall, ends excluded; and how
+/// it moves as a whole.
 struct WallParts {
   std::size_t firstPrimitive = 0, endPrimitive = 0, firstMesh = 0, endMesh = 0;
+  Vec3 point{};                      ///< that it is described from, m
+  Vec3 centre{};                     ///< that it turns about and moments are about, from `point`, m
+  std::vector<Vec3> arms{}, axes{};  ///< of the primitives as described: their points from `point`
+  std::vector<Vec3> offsets{};       ///< of the vertices of the mesh, from `point`
+  dem::RigidMotion base{};           ///< where `point` was, and how it was turned, when the motion began
+  double since = 0.0;                ///< s, when the motion began
+  dem::PrescribedMotion motion{};    ///< of `point`; empty: at rest at `base`, or the servo's
+  std::optional<Servo> servo{};
+};
+
+/// What stages change of solids, as it is now.
+struct ChangingParts {
+  std::shared_ptr<Vec3> gravity = std::make_shared<Vec3>();
+  std::map<std::string, std::shared_ptr<std::function<double(double)>>> loads{};
 };
 
 /// A run, and data on its parts.
@@ -24,7 +41,8 @@ struct Built {
   std::vector<fem::SolidMesh> meshes;             ///< of the solids, in their order
   std::vector<WallParts> walls;                   ///< of the scene's walls, in their order
   std::vector<linalg::LinearForecast> forecasts;  ///< of the solids of a started run
-  std::vector<std::string> notes;                 ///< on decisions that the file leaves open, one sentence each
+  ChangingParts changing;
+  std::vector<std::string> notes;  ///< on decisions that the file leaves open, one sentence each
 };
 
 /// Fills a closed, welded and oriented surface with elements; sets: "skin".

@@ -53,8 +53,12 @@ public:
   virtual void functions(Key key, std::optional<TimeVector>& value, const Dimension& dimension) = 0;
   virtual void cells(Key key, std::array<int, 3>& value) = 0;
   virtual void flag(Key key, bool& value) = 0;
+  virtual void flag(Key key, std::optional<bool>& value) = 0;
   virtual void text(Key key, std::string& value, bool needed) = 0;
   virtual void file(Key key, std::string& value) = 0;
+  virtual void fileList(Key key, std::vector<std::string>& values) = 0;
+  /// A name, or the number of an item of a list, counted from 0.
+  virtual void nameOrNumber(Key key, std::string& value) = 0;
   virtual void word(Key key, std::string& value, Words words) = 0;
   /// Several of the words, each at most once.
   virtual void wordList(Key key, std::vector<std::string>& value, Words words, bool needed) = 0;

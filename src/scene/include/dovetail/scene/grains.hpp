@@ -142,18 +142,51 @@ struct SphereWall {
 };
 struct SurfaceFile {
   std::string file;
-  double scale = 1.0;  ///< m per unit of the file
-  Vec3 shift;          ///< m, after scaling
+  std::vector<std::string> more;  ///< files of the same wall
+  double tolerance = 0.0;         ///< m: vertices that near to each other become one
+  double scale = 1.0;             ///< m per unit of the file
+  Vec3 shift;                     ///< m, after scaling
   bool closed = false;
   std::optional<Vec3> point;  ///< centre of rotation, m; not given: the centroid of the surface
 };
-struct Wall {
-  std::variant<Plane, BoxWalls, Cylinder, SphereWall, SurfaceFile> shape;
-  std::string contactMaterial;
+/// What a wall that a load pushes along an axis has beside its load.
+struct PushedWall {
+  std::optional<double> mass;        ///< kg; not given: that of all grains at the start
+  std::optional<double> speedLimit;  ///< m/s
+  bool weight = false;               ///< gravity acts on the mass
+};
+struct KeptForce : PushedWall {
+  TimeValue force{required, ""};  ///< N, along the axis
+};
+struct KeptPressure : PushedWall {
+  TimeValue pressure{required, ""};  ///< Pa, along the axis
+  double area = required;            ///< m²
+};
+struct KeptTorque {
+  TimeValue torque{required, ""};         ///< N m, about the axis
+  std::optional<Vec3> point;              ///< on the axis, m; not given: that of the wall
+  std::optional<double> momentOfInertia;  ///< kg m²; not given: that of all grains at the start
+  std::optional<double> speedLimit;       ///< rad/s
+};
+/// See dem::WallServo.
+struct Servo {
+  std::variant<KeptForce, KeptPressure, KeptTorque> keeps;
+  Vec3 axis = requiredVector;
+  double damping = 0.7;  ///< dem::WallServo::localDamping
+};
+struct WallMotion {
   TimeVector velocity;                     ///< m/s
-  std::optional<TimeVector> displacement;  ///< m, from where the wall is described; in place of a velocity
+  std::optional<TimeVector> displacement;  ///< m, from where the motion begins; in place of a velocity
   Vec3 angularVelocity;                    ///< rad/s about `point` or `centre`
   std::optional<Turn> turn;                ///< about the same, in place of an angular velocity
+  std::optional<Servo> servo;              ///< in place of all these
+};
+struct Wall : WallMotion {
+  std::variant<Plane, BoxWalls, Cylinder, SphereWall, SurfaceFile> shape;
+  std::string name;
+  std::string contactMaterial;
+  Vec3 surfaceVelocity;  ///< m/s, over the wall, which it does not move
+  bool present = true;   ///< at the start
   std::string where;
 };
 

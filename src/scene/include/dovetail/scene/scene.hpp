@@ -34,8 +34,34 @@ struct Statics {
 struct FindModes {
   int count = 6;
 };
+/// From the start of a stage on; what is not given stays. A motion begins where the wall is.
+struct WallChange {
+  std::string wall;  ///< name, or number of the item of `walls`
+  std::optional<TimeVector> velocity, displacement;
+  std::optional<Vec3> angularVelocity;
+  std::optional<Turn> turn;
+  std::optional<Servo> servo;
+  std::optional<Vec3> surfaceVelocity;
+  std::optional<bool> present;  ///< whether it is there from then on
+  std::string where;
+};
+struct LoadChange {
+  std::string solid;
+  Load load;  ///< the set that it is on, its kind and its values
+  std::string where;
+};
+/// At the start of a stage. Functions of time count from there.
+struct Changes {
+  std::optional<Vec3> gravity;
+  std::optional<ContactLaw> contact;
+  std::vector<PairLaw> contacts;
+  std::vector<WallChange> walls;
+  std::vector<LoadChange> loads;
+  std::string where;
+};
 struct Stage {
   std::variant<Relax, RunFor, Statics, FindModes> kind;
+  std::optional<Changes> changes;
   std::string where;
 };
 struct Steps {
@@ -55,9 +81,14 @@ struct NodeProbe {
   std::string solid;
   Vec3 at = requiredVector;  ///< m
 };
-/// Force of the grains on a wall.
+/// Force of the grains on a wall, their moment about its point, and how far it has come.
 struct WallProbe {
-  int wall = 0;  ///< item of `walls`
+  std::string wall;  ///< name, or number of the item of `walls`
+};
+/// Force of the grains on the surface of a solid, and their moment.
+struct SolidProbe {
+  std::string solid, on;      ///< face set of its couplings; empty: all
+  std::optional<Vec3> point;  ///< m; not given: the origin
 };
 /// Force of a drive on its grains, and its moment about their centre.
 struct DriveProbe {
@@ -73,7 +104,7 @@ struct RegionProbe {
 };
 struct Probe {
   std::string name;
-  std::variant<GrainProbe, NodeProbe, WallProbe, DriveProbe, SupportProbe, RegionProbe> of;
+  std::variant<GrainProbe, NodeProbe, WallProbe, SolidProbe, DriveProbe, SupportProbe, RegionProbe> of;
   std::string where;
 };
 struct Output {

@@ -16,7 +16,8 @@ struct Dimension {
 namespace unit {
 inline constexpr Dimension none{}, length{1, 0, 0}, time{0, 0, 1}, velocity{1, 0, -1}, acceleration{1, 0, -2},
     density{-3, 1, 0}, stiffness{0, 1, -2}, pressure{-1, 1, -2}, angle{0, 0, 0, 1}, spin{0, 0, -1, 1}, rate{0, 0, -1},
-    massRate{0, 1, -1}, penalty{-3, 1, -2}, force{1, 1, -2}, pressurePerLength{-2, 1, -2}, mass{0, 1}, volume{3};
+    massRate{0, 1, -1}, penalty{-3, 1, -2}, force{1, 1, -2}, pressurePerLength{-2, 1, -2}, torque{2, 1, -2},
+    area{2, 0, 0}, mass{0, 1, 0}, inertia{2, 1, 0}, volume{3, 0, 0};
 }
 
 /// "m", "kg/m3", "Pa", …; empty without a unit.

@@ -15,11 +15,12 @@ class PrimitiveWallTerm final : public Term {
 public:
   explicit PrimitiveWallTerm(PrimitiveWall w) : wall(std::move(w)) {}
   PrimitiveWall wall;
+  bool present = true;  ///< else it touches nothing, and a servo rests; setPresent changes it between steps
   double stored = 0.0;  ///< in its contacts now, J
 
   std::string name() const override { return "walls"; }
   std::unique_ptr<Term> clone() const override { return std::make_unique<PrimitiveWallTerm>(*this); }
-  std::string code() const override { return wall.motion ? "a motion" : ""; }
+  std::string code() const override;
   void check(const Model& m) const override;
   double move(Model& m, const Step& step) override;
   void surround(Surroundings& around) override;
@@ -40,6 +41,7 @@ class MeshWallTerm final : public Term {
 public:
   explicit MeshWallTerm(MeshWall m) : mesh(std::move(m)) {}
   MeshWall mesh;
+  bool present = true;  ///< as that of a PrimitiveWallTerm
   double stored = 0.0;  ///< in its contacts now, J
 
   std::string name() const override { return "mesh walls"; }
@@ -81,6 +83,11 @@ MeshWall& addFreeWall(Model& m, TriangulatedWall wall, const MassProperties& pro
 /// @throws InputError if it is not the model's
 void removeWall(Model& m, const PrimitiveWall& wall);
 void removeWall(Model& m, const MeshWall& mesh);
+
+/// Takes a wall away or puts it back, where its motion has it. Find forces anew before the next step: the energy of its
+/// contacts is then booked as entered. It keeps its number.
+void setPresent(PrimitiveWallTerm& term, bool present);
+void setPresent(MeshWallTerm& term, bool present);
 
 /// Wall number i of its kind, in the order in which they were added. @throws InputError if there is none
 PrimitiveWall& primitiveWall(Model& m, std::size_t i);

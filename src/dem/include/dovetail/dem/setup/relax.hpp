@@ -42,4 +42,7 @@ void stop(Model& m);
 /// been found. Contacts with walls count. Infinite where there are forces and no contacts.
 RelaxationReport restOf(const Model& m);
 
+/// Of the walls with a servo: the largest unbalanced force over its load or contact force, 0 without such walls.
+double unbalancedLoads(const Model& m);
+
 }  // namespace dovetail::dem

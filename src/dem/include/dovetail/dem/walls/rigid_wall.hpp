@@ -4,19 +4,11 @@
 #include <functional>
 #include <vector>
 
-#include "dovetail/core/quaternion.hpp"
 #include "dovetail/dem/bodies/bodies.hpp"
+#include "dovetail/dem/walls/rigid_motion.hpp"
 #include "dovetail/dem/walls/wall.hpp"
 
 namespace dovetail::dem {
-
-/// Where a rigid wall is, and how it moves: its reference point x, its turn from how it was described, v and omega.
-struct RigidMotion {
-  Vec3 x;           ///< m
-  Quaternion turn;  ///< unit
-  Vec3 v;           ///< m/s
-  Vec3 omega;       ///< rad/s, in space
-};
 
 /// A motion as a function of time, s. It must give v and omega as the rates of x and turn: contacts take the wall's
 /// velocity from it, and the work of the wall is wrong if they disagree.

@@ -1,0 +1,233 @@
+#include "changes.hpp"
+
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "parts.hpp"
+#include "time_functions.hpp"
+#include "wall_motion.hpp"
+#include "warnings/warnings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+bool movesAnew(const WallChange& change) {
+  return change.velocity || change.displacement || change.angularVelocity || change.turn || change.servo;
+}
+WallMotion motionIn(const WallChange& change) {
+  WallMotion motion;
+  if (change.velocity) motion.velocity = *change.velocity;
+  motion.displacement = change.displacement;
+  motion.angularVelocity = change.angularVelocity.value_or(Vec3{});
+  motion.turn = change.turn;
+  motion.servo = change.servo;
+  return motion;
+}
+
+dem::WallServo* servoIn(dem::Model& grains, const WallParts& parts) {
+  if (!parts.servo) return nullptr;
+  if (parts.firstMesh < parts.endMesh)
+    return std::get_if<dem::WallServo>(&dem::meshWall(grains, parts.firstMesh).motion);
+  auto& servo = dem::primitiveWall(grains, parts.firstPrimitive).servo;
+  return servo ? &*servo : nullptr;
+}
+
+void change(const MovedModel& model, std::vector<WallParts>& walls, const WallChange& change, const Scene& scene) {
+  const std::size_t item = wallNamed(change.wall, scene);
+  WallParts& parts = walls[item];
+  if (movesAnew(change)) setMotion(model, parts, motionIn(change), scene);
+  if (change.surfaceVelocity) setSurfaceVelocity(model.grains, parts, *change.surfaceVelocity);
+  if (change.present) setPresence(model.grains, parts, *change.present);
+}
+
+/// Of gravity, laws and walls.
+void changeGrains(const MovedModel& model, std::vector<WallParts>& walls, const Scene& scene, std::size_t stage) {
+  const Changes& changes = *scene.stages[stage].changes;
+  if (changes.gravity) model.grains.gravity = *changes.gravity;
+  if (changesLaws(scene.stages[stage])) model.grains.laws = makeLaws(lawsAt(scene, stage));
+  for (const WallChange& one : changes.walls) atPlace(one.where, [&] { change(model, walls, one, scene); });
+  if (changes.gravity)
+    for (const WallParts& parts : walls) setServoLoad(model.grains, parts, scene);
+}
+
+void changeLoads(Built& built, const Scene& scene, const Changes& changes, double since) {
+  const auto put = [&](const LoadChange& one, const TimeValue& value, int component) {
+    TimeFunction function = functionOf(value, scene);
+    *built.changing.loads.at(keyOfLoad(one.solid, one.load, component)) = [function, since](double t) {
+      return function(std::max(0.0, t - since));
+    };
+  };
+  for (const LoadChange& one : changes.loads) {
+    if (const auto* const pressure = std::get_if<PressureLoad>(&one.load.kind)) {
+      put(one, pressure->pressure, 0);
+      continue;
+    }
+    const auto* const traction = std::get_if<TractionLoad>(&one.load.kind);
+    const TimeVector& parts = traction ? traction->traction : std::get<NodalLoad>(one.load.kind).force;
+    for (std::size_t c = 0; c < 3; ++c) put(one, parts[c], static_cast<int>(c));
+  }
+}
+
+/// Walls that appear push what lies behind them to their other side.
+void requireNoneBehind(const Built& built, const Scene& scene, const Changes& changes) {
+  for (const WallChange& one : changes.walls)
+    if (one.present.value_or(false)) {
+      const std::size_t item = wallNamed(one.wall, scene);
+      requireBefore(built.run->grains, scene, item, built.walls[item]);
+    }
+}
+
+bool isBonded(const ContactLaw& law) {
+  const auto* const linear = std::get_if<LinearContact>(&law.normal);
+  return linear && linear->bonded;
+}
+void requireLaw(const Scene& scene, const ContactLaw& law) {
+  if (!scene.contact && scene.contacts.empty())
+    throw InputError("the scene has no contact law that could change", law.where, "give it one from the start");
+  const ContactLaw& first = scene.contact ? *scene.contact : scene.contacts.front().law;
+  if (isBonded(law) || isBonded(first))
+    throw InputError("bonded springs cannot change", law.where, "leave contact out of the changes");
+  if (law.normal.index() != first.normal.index())
+    throw InputError("linear and Hertz laws cannot be mixed in one scene", law.where,
+                     std::string("write \"law\": \"") + (first.normal.index() == 0 ? "linear\"" : "Hertz\""));
+}
+
+void requireLoad(const Scene& scene, const LoadChange& change) {
+  const auto solid = std::ranges::find(scene.solids, change.solid, &Solid::name);
+  if (solid == scene.solids.end())
+    throw InputError("there is no solid \"" + change.solid + "\"", "", "give the name of one");
+  const auto load = std::ranges::find_if(solid->loads, [&](const Load& one) {
+    return one.on == change.load.on && one.kind.index() == change.load.kind.index();
+  });
+  if (load == solid->loads.end())
+    throw InputError("\"" + change.solid + "\" has no such load on \"" + change.load.on + "\" before", "",
+                     "give it one of 0 from the start");
+  const auto* const traction = std::get_if<TractionLoad>(&change.load.kind);
+  const auto* const pressure = std::get_if<PressureLoad>(&change.load.kind);
+  if ((traction && usesPlace(traction->traction)) || (pressure && usesPlace(pressure->pressure)))
+    throw InputError("a load of the place cannot change", "", "leave x, y and z out of it");
+  const auto* const before = std::get_if<PressureLoad>(&load->kind);
+  const auto* const now = std::get_if<PressureLoad>(&change.load.kind);
+  if (before && now && before->follows != now->follows)
+    throw InputError("the pressure on \"" + change.load.on + "\" follows the faces before or then, not both", "",
+                     "give both the same \"follows\"");
+}
+
+/// What moves steadily as a stage begins.
+struct Steady {
+  bool path = false, belt = false, present = true;
+  std::string where;
+};
+bool isSteadyPath(const WallMotion& motion) {
+  return norm(motion.angularVelocity) > 0.0 || (isConstant(motion.velocity) && norm(constantOf(motion.velocity)) > 0.0);
+}
+void requireStandstill(const Scene& scene) {
+  std::vector<Steady> walls;
+  for (const Wall& wall : scene.walls)
+    walls.push_back({isSteadyPath(wall), norm(wall.surfaceVelocity) > 0.0, wall.present, wall.where});
+  for (const Stage& stage : scene.stages) {
+    for (const WallChange& one : stage.changes ? stage.changes->walls : std::vector<WallChange>{}) {
+      Steady& wall = walls[atPlace(one.where, [&] { return wallNamed(one.wall, scene); })];
+      if (movesAnew(one)) wall.path = isSteadyPath(motionIn(one)), wall.where = one.where;
+      if (one.surfaceVelocity) wall.belt = norm(*one.surfaceVelocity) > 0.0, wall.where = one.where;
+      wall.present = one.present.value_or(wall.present);
+    }
+    if (!std::holds_alternative<Relax>(stage.kind)) continue;
+    for (const Steady& wall : walls)
+      if (wall.present && (wall.path || wall.belt))
+        throw InputError(
+            std::string("a stage relaxes, but a wall has a steady ") + (wall.path ? "velocity" : "surface_velocity"),
+            wall.where, "run for a time in place of relaxing, or let a later stage begin it by its \"changes\"");
+  }
+}
+
+}  // namespace
+
+StageStart startOf(const Built& built) {
+  StageStart start{built.run->time(), {}};
+  for (const WallParts& parts : built.walls) {
+    const dem::WallServo* const servo = servoIn(built.run->grains, parts);
+    start.travels.push_back(servo ? servo->travel : 0.0);
+  }
+  return start;
+}
+
+void beginStage(Built& built, const Scene& scene, std::size_t stage, const StageStart& start, Grains grains) {
+  if (!scene.stages[stage].changes) return;
+  const Changes& changes = *scene.stages[stage].changes;
+  coupling::CoupledRun& run = *built.run;
+  run.change([&] {
+    run.grains.time = start.time;
+    for (std::size_t w = 0; w < built.walls.size() && w < start.travels.size(); ++w)
+      if (dem::WallServo* const servo = servoIn(run.grains, built.walls[w])) servo->travel = start.travels[w];
+    changeGrains({run.grains, run}, built.walls, scene, stage);
+    if (grains == Grains::areThere) requireNoneBehind(built, scene, changes);
+    if (changes.gravity) *built.changing.gravity = *changes.gravity;
+    changeLoads(built, scene, changes, start.time);
+  });
+}
+
+void requireChanges(const Built& built, const Scene& scene) {
+  requireStandstill(scene);
+  for (std::size_t k = 0; k < scene.stages.size(); ++k) {
+    if (!scene.stages[k].changes) continue;
+    const Changes& changes = *scene.stages[k].changes;
+    if (!std::holds_alternative<Relax>(scene.stages[k].kind) && !std::holds_alternative<RunFor>(scene.stages[k].kind))
+      throw InputError("only stages that relax or run have changes", changes.where,
+                       "give them to the stage that follows");
+    if (changes.contact) requireLaw(scene, *changes.contact);
+    for (const PairLaw& pair : changes.contacts) {
+      requireLaw(scene, pair.law);
+      atPlace(pair.law.where, [&] { contactRow(scene, pair.first), contactRow(scene, pair.second); });
+    }
+    for (const LoadChange& one : changes.loads) atPlace(one.where, [&] { requireLoad(scene, one); });
+    grainsAt(built, scene, k);
+  }
+}
+
+dem::Model grainsAt(const Built& built, const Scene& scene, std::size_t stage) {
+  dem::Model grains = built.run->grains;
+  std::vector<WallParts> walls = built.walls;
+  for (std::size_t k = 0; k <= stage; ++k)
+    if (scene.stages[k].changes) changeGrains({grains, *built.run}, walls, scene, k);
+  return grains;
+}
+
+bool changesLaws(const Stage& stage) {
+  return stage.changes && (stage.changes->contact || !stage.changes->contacts.empty());
+}
+
+Scene lawsAt(const Scene& scene, std::size_t stage) {
+  Scene now = scene;
+  for (std::size_t k = 0; k <= stage; ++k) {
+    if (!scene.stages[k].changes) continue;
+    if (scene.stages[k].changes->contact) now.contact = scene.stages[k].changes->contact;
+    for (const PairLaw& pair : scene.stages[k].changes->contacts) {
+      const auto same = std::ranges::find_if(now.contacts, [&](const PairLaw& one) {
+        return (one.first == pair.first && one.second == pair.second) ||
+               (one.first == pair.second && one.second == pair.first);
+      });
+      same == now.contacts.end() ? now.contacts.push_back(pair) : static_cast<void>(*same = pair);
+    }
+  }
+  return now;
+}
+
+bool changesGravity(const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes && one.changes->gravity; });
+}
+
+bool isChanged(const Load& load, const Solid& solid, const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [&](const Stage& stage) {
+    return stage.changes && std::ranges::any_of(stage.changes->loads, [&](const LoadChange& one) {
+             return one.solid == solid.name && one.load.on == load.on && one.load.kind.index() == load.kind.index();
+           });
+  });
+}
+
+std::string keyOfLoad(const std::string& solid, const Load& load, int component) {
+  return solid + " " + load.on + " " + std::to_string(load.kind.index()) + " " + std::to_string(component);
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,45 @@
+// What stages of a scene change at their start.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/scene/build.hpp"
+
+namespace dovetail::scene {
+
+/// What the changes of a stage depend on beside the scene; states hold it, so that a run that goes on makes them alike.
+struct StageStart {
+  double time = 0.0;            ///< s
+  std::vector<double> travels;  ///< m or rad, of the servo of each wall, 0 without
+};
+template <class Archive, class S>
+void archiveFields(Archive& archive, S& start) requires std::is_same_v<std::remove_const_t<S>, StageStart> {
+  archive(start.time, start.travels);
+}
+
+/// Now, of a started run.
+StageStart startOf(const Built& built);
+/// Whether grains are where they are as the stage begins, or a state will put them there.
+enum class Grains { areThere, follow };
+/// Makes the changes of a stage.
+/// @throws InputError with the place of what cannot be, such as grains behind walls that are put in place
+void beginStage(Built& built, const Scene& scene, std::size_t stage, const StageStart& start, Grains grains);
+/// @throws InputError with the place of changes of what is not there, of laws that cannot change, or of walls that are
+/// to move steadily while a stage relaxes
+void requireChanges(const Built& built, const Scene& scene);
+
+/// A copy of the grains as they are now with the changes of all stages up to this one: walls move as at its start.
+dem::Model grainsAt(const Built& built, const Scene& scene, std::size_t stage);
+/// With the laws of contacts that hold from this stage on.
+Scene lawsAt(const Scene& scene, std::size_t stage);
+bool changesLaws(const Stage& stage);
+/// Whether a stage changes gravity.
+bool changesGravity(const Scene& scene);
+/// Whether a stage changes a load of a solid.
+bool isChanged(const Load& load, const Solid& solid, const Scene& scene);
+std::string keyOfLoad(const std::string& solid, const Load& load, int component);
+
+}  // namespace dovetail::scene

@@ -1,0 +1,33 @@
+// How walls of a scene move, as rigid wholes.
+#pragma once
+
+#include "dovetail/dem/model/walls.hpp"
+#include "dovetail/scene/build.hpp"
+
+namespace dovetail::scene {
+
+/// The particles' model of a run, or a copy of it.
+struct MovedModel {
+  dem::Model& grains;
+  const coupling::CoupledRun& run;
+};
+
+/// Of the point of a wall from `parts.base` and `parts.since` on; functions of time count from there.
+/// @throws InputError for a path and a turn that are given twice, or an axis of no length
+dem::PrescribedMotion motionOf(const WallMotion& motion, const WallParts& parts, const Scene& scene);
+
+/// Where the point of a wall is now, and how the wall is turned.
+dem::RigidMotion placeOf(const WallParts& parts, const dem::Model& grains, double time);
+/// Where its centre is now, m, about which moments on it are.
+Vec3 centreOf(const WallParts& parts, const dem::Model& grains);
+
+/// Gives the wall a motion from now on: a path or a servo. Of a servo about the same axis the load changes alone.
+/// @throws InputError for what its shape cannot do
+void setMotion(const MovedModel& model, WallParts& parts, const WallMotion& motion, const Scene& scene);
+/// Load of the servo with the weight of the wall under the present gravity, if it has any.
+void setServoLoad(dem::Model& grains, const WallParts& parts, const Scene& scene);
+/// @throws InputError if it does not lie in the surface
+void setSurfaceVelocity(dem::Model& grains, const WallParts& parts, const Vec3& velocity);
+void setPresence(dem::Model& grains, const WallParts& parts, bool present);
+
+}  // namespace dovetail::scene
