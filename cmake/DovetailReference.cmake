@@ -12,7 +12,7 @@ list(TRANSFORM header_folders REPLACE "/include/dovetail/.*" "/include")
 list(REMOVE_DUPLICATES header_folders)
 file(GLOB_RECURSE readmes "${PROJECT_SOURCE_DIR}/benchmarks/*.md" "${PROJECT_SOURCE_DIR}/examples/*.md"
      "${PROJECT_SOURCE_DIR}/scenes/*.md")
-file(GLOB documents "${PROJECT_SOURCE_DIR}/docs/*.md")
+file(GLOB documents "${PROJECT_SOURCE_DIR}/docs/*.md" "${PROJECT_SOURCE_DIR}/docs/recipes/*.md")
 set(inputs "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md"
     "${PROJECT_SOURCE_DIR}/RELEASING.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md" ${documents} ${readmes})
 list(JOIN header_folders "\" \"" REFERENCE_HEADERS)

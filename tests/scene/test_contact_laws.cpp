@@ -138,7 +138,8 @@ TEST(ContactLaws, DampingOfTheScene) {
   EXPECT_NEAR(residual(viscous), 0.0, 1e-6 * joules(viscous, "particles: damping"));
   Built local = startedWith(law, R"("damping": {"local": 0.7}, )" + grain);
   local.run->advance(1000);
-  EXPECT_NEAR(local.run->grains.particles.v[0].z, -0.3 * 10.0 * 0.01, 1e-10);
+  // Undamped in the first half step: there is no motion yet.
+  EXPECT_NEAR(local.run->grains.particles.v[0].z, -0.3 * 10.0 * 0.01 - 0.7 * 10.0 * 0.5e-5, 1e-10);
   EXPECT_EQ(local.run->grains.particles.v[0].x, 2.0);
   EXPECT_NEAR(residual(local), 0.0, 1e-6 * joules(local, "particles: damping"));
 }

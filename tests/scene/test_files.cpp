@@ -115,7 +115,7 @@ TEST(SceneFiles, TablesOfGrainsKeepNothingToThemselves) {
       {"x_m,y_m,z_m,radius_m,vx_m_per_s" + row + ",3", "\"vx_m_per_s\", but no \"vy_m_per_s\""},
       {"x_m,y_m,z_m,radius_m,vx,vy,vz" + row + ",1,2,3", "a column \"vx\", which is unknown"},
       {"x_m,y_m,z_m,radius_m,density_kg_per_m3" + row + ",7800", "\"density_kg_per_m3\", which is unknown"},
-      {"x_m,y_m,z_m,radius_m,wx_rad_per_s" + row + ",7", "\"wx_rad_per_s\", which is unknown"},
+      {"x_m,y_m,z_m,radius_m,wx_rad_per_s" + row + ",7", "no \"wy_rad_per_s\""},
       {"x_m,y_m,z_m,radius_m,material" + row + ",1", "\"material\", which is unknown"},
       {"x_mm,y_m,z_m,radius_m" + row, "write \"x_m\""},
       {"x_m,y_m,z_m,radius_m,radius_m" + row + ",1", "occurs twice"},

@@ -24,7 +24,7 @@ const std::string held =
 TEST(SceneDrives, TellTheForceAndTheTorqueThatTheyTake) {
   Scene file = sceneOf(held + R"("drives": [{"group": "g"}], "walls": [{"shape": "plane", "point": [0, 0, 0.009],
       "normal": [0, 0, -1], "velocity": [0.5, 0, 0]}],)");
-  file.output.probes = {{"d", DriveProbe{0}, ""}, {"w", WallProbe{0}, ""}};
+  file.output.probes = {{"d", DriveProbe{0}, ""}, {"w", WallProbe{"0"}, ""}};
   Built built = started(file);
   const Probes probes(built, file);
   built.run->advance(2000);

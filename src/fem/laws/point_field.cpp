@@ -11,6 +11,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
+#include "law_of_field.hpp"
 
 namespace dovetail::fem {
 
@@ -23,6 +24,7 @@ class LawField final : public PointField {
 public:
   explicit LawField(std::shared_ptr<const PointMaterial> law) : law_(std::move(law)), size_(law_->historySize()) {}
 
+  const PointMaterial& law() const { return *law_; }
   std::string name() const override { return law_->name(); }
   double density() const override { return law_->density(); }
   bool isSymmetric() const override { return law_->isSymmetric(); }
@@ -195,6 +197,11 @@ private:
 };
 
 }  // namespace
+
+const PointMaterial* lawOf(const PointField& field) {
+  const auto* const made = dynamic_cast<const LawField*>(&field);
+  return made ? &made->law() : nullptr;
+}
 
 std::shared_ptr<PointField> pointField(std::shared_ptr<const PointMaterial> law) {
   if (law == nullptr) throw InputError("there is no law", "pointField", "give one, for instance neoHookean()");

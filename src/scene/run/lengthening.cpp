@@ -45,7 +45,7 @@ double withoutRoundoff(double seconds) {
 void lengthen(Scene& scene, const Plan& plan, const Progress& progress, const coupling::CoupledRun& run, double until) {
   auto* const last = scene.stages.empty() ? nullptr : std::get_if<RunFor>(&scene.stages.back().kind);
   if (!last)
-    throw InputError("the last stage is none that runs for a time", where,
+    throw InputError("the last stage does not run for a time", where,
                      "continue in another scene whose grains and solids start from this run's checkpoint");
   const double time = until - startOfLast(scene, plan, progress, run);
   if (!(until >= run.time() - 0.5 * run.macroStep() && time > 0.5 * run.macroStep()))

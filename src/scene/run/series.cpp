@@ -128,9 +128,9 @@ std::vector<const dem::Insertion*> insertionsOf(const Built& built) {
 }
 
 Series::Series(Built& built, const Scene& scene, SeriesFiles files)
-    : channels_(channelsOf(
-          built, files.loadSteps,
-          std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes.has_value(); }))),
+    : channels_(
+          channelsOf(built, files.loadSteps,
+                     std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes.has_value(); }))),
       probes_(built, scene),
       table_(columnsOf(channels_, built, probes_.names())),
       files_(std::move(files)),

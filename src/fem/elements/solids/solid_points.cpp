@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
+#include "laws/law_of_field.hpp"
 
 namespace dovetail::fem::detail {
 
@@ -19,6 +20,7 @@ public:
   bool feelsRates() const override { return law_->feelsRates(); }
   /// A law without potential has no history either that would book what its work leaves.
   bool hasEnergy() const override { return law_->isElastic() || remembers(); }
+  double dampingTime() const override { return law_->dampingTime(); }
   bool remembers() const override { return size_ > 0; }
   const PointMaterial* law() const override { return law_.get(); }
 
@@ -95,6 +97,11 @@ std::unique_ptr<SolidPoints> pointsOf(std::shared_ptr<const PointMaterial> law) 
 std::unique_ptr<SolidPoints> pointsOf(std::shared_ptr<PointField> field) {
   if (field == nullptr) throw InputError("there is no field of points", "elements", "give one from pointField()");
   return std::make_unique<FieldPoints>(std::move(field));
+}
+
+double FieldPoints::dampingTime() const {
+  const PointMaterial* const law = lawOf(*field_);
+  return law ? law->dampingTime() : 0.0;
 }
 
 void FieldPoints::open(std::size_t pointsPerElement, std::span<const PointPlace> places) {

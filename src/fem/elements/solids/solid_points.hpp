@@ -35,6 +35,8 @@ public:
   virtual bool isElastic() const = 0;
   virtual bool feelsRates() const = 0;
   virtual bool hasEnergy() const = 0;
+  /// Largest ratio of viscosity to modulus, s.
+  virtual double dampingTime() const = 0;
   /// Whether there is a state that changes in commit().
   virtual bool remembers() const = 0;
   /// Null for a field.
@@ -75,6 +77,7 @@ public:
   bool isElastic() const override { return false; }
   bool feelsRates() const override { return field_->feelsRates(); }
   bool hasEnergy() const override { return field_->hasEnergy(); }
+  double dampingTime() const override;
   bool remembers() const override { return true; }
   FieldPoints* field() override { return this; }
 

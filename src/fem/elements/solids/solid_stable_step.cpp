@@ -80,7 +80,7 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
     }
     if (std::isnan(own)) break;
   }
-  const double h = 2.0 / std::sqrt(largest), tau = material() ? material()->dampingTime() : 0.0;
+  const double h = 2.0 / std::sqrt(largest), tau = points_->dampingTime();
   return {{tau > 0.0 ? h * h / (std::hypot(tau, h) + tau) : h, {}}, cells_.number[worst], name()};
 }
 

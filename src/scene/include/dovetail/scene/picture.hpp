@@ -24,7 +24,7 @@ struct PictureOptions {
   double warp = 1.0;                         ///< displacements are drawn so many times as large
   std::optional<ColourRange> grainRange, solidRange;  ///< SI units
   int width = 1200, height = 0;                       ///< pixels; height 0: as the scene needs
-  std::string background = "white";                   ///< or black, or #rrggbb
+  std::string background = "white";                   ///< or black, or "\#" and six hexadecimal digits
   std::filesystem::path file;  ///< .png, or .gif of films; empty: picture.png or film.gif in the folder
 };
 
