@@ -207,7 +207,9 @@ TEST(SceneWarnings, BodiesThatNothingHolds) {
   const std::string left = R"({"on": "x-", "type": "pressure", "pressure": 1000})";
   expectParts(loads(right), {"Nothing holds \"b\" along x", "-1000 N", "accelerates without end"});
   EXPECT_EQ(loads(right + "," + left), "");
-  if (WITH_EXPRESSIONS) EXPECT_EQ(loads(replaced(right, "1000", "\"1000*(t < 1e-4)\"")), "");
+  if (WITH_EXPRESSIONS) {
+    EXPECT_EQ(loads(replaced(right, "1000", "\"1000*(t < 1e-4)\"")), "");
+  }
   const std::string sides = R"({"on": "x-", "components": ["x"]}, {"on": "y-", "components": ["y"]})";
   const auto pulled = [&](const std::string& supports) {
     return warningsOf(R"("gravity": [0, 0, -9.81],)" +
