@@ -25,14 +25,6 @@ WallMotion motionIn(const WallChange& change) {
   return motion;
 }
 
-dem::WallServo* servoIn(dem::Model& grains, const WallParts& parts) {
-  if (!parts.servo) return nullptr;
-  if (parts.firstMesh < parts.endMesh)
-    return std::get_if<dem::WallServo>(&dem::meshWall(grains, parts.firstMesh).motion);
-  auto& servo = dem::primitiveWall(grains, parts.firstPrimitive).servo;
-  return servo ? &*servo : nullptr;
-}
-
 void change(const MovedModel& model, std::vector<WallParts>& walls, const WallChange& change, const Scene& scene) {
   const std::size_t item = wallNamed(change.wall, scene);
   WallParts& parts = walls[item];

@@ -11,6 +11,14 @@
 
 namespace dovetail::scene {
 
+dem::WallServo* servoIn(dem::Model& grains, const WallParts& parts) {
+  if (!parts.servo) return nullptr;
+  if (parts.firstMesh < parts.endMesh)
+    return std::get_if<dem::WallServo>(&dem::meshWall(grains, parts.firstMesh).motion);
+  auto& servo = dem::primitiveWall(grains, parts.firstPrimitive).servo;
+  return servo ? &*servo : nullptr;
+}
+
 namespace {
 
 using dem::RigidMotion;
@@ -40,13 +48,6 @@ void forEachMesh(dem::Model& grains, const WallParts& parts, const Act& act) {
   for (std::size_t i = parts.firstMesh; i < parts.endMesh; ++i) act(*terms[i]);
 }
 
-dem::WallServo* servoIn(dem::Model& grains, const WallParts& parts) {
-  if (!parts.servo) return nullptr;
-  if (parts.firstMesh < parts.endMesh)
-    return std::get_if<dem::WallServo>(&dem::meshWall(grains, parts.firstMesh).motion);
-  auto& servo = dem::primitiveWall(grains, parts.firstPrimitive).servo;
-  return servo ? &*servo : nullptr;
-}
 const dem::WallServo* servoIn(const dem::Model& grains, const WallParts& parts) {
   return servoIn(const_cast<dem::Model&>(grains), parts);
 }

@@ -24,6 +24,8 @@ Vec3 centreOf(const WallParts& parts, const dem::Model& grains);
 /// Gives the wall a motion from now on: a path or a servo. Of a servo about the same axis the load changes alone.
 /// @throws InputError for what its shape cannot do
 void setMotion(const MovedModel& model, WallParts& parts, const WallMotion& motion, const Scene& scene);
+/// Null for a wall without one.
+dem::WallServo* servoIn(dem::Model& grains, const WallParts& parts);
 /// Load of the servo with the weight of the wall under the present gravity, if it has any.
 void setServoLoad(dem::Model& grains, const WallParts& parts, const Scene& scene);
 /// @throws InputError if it does not lie in the surface
