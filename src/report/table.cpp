@@ -1,5 +1,6 @@
 #include "dovetail/report/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
@@ -45,6 +46,9 @@ std::string csvOf(const std::vector<Json>& entries, const io::KeyValues& provena
   io::KeyValues head;
   for (const Json& entry : entries)
     if (io::KeyValues fields = flattened(entry); fields.size() > head.size()) head = std::move(fields);
+  for (const Json& entry : entries)
+    for (const auto& field : flattened(entry))
+      if (std::ranges::find(head, field.first, &io::KeyValues::value_type::first) == head.end()) head.push_back(field);
   std::ostringstream csv;
   csv << io::provenanceLines(provenance, "# ");
   const auto line = [&](auto part) {

@@ -5,6 +5,7 @@
 #include "../cantilever/program.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
+#include "dovetail/report/curve_error.hpp"
 #include "dovetail/report/table.hpp"
 
 namespace dovetail::report {
@@ -131,6 +132,92 @@ TEST(StudyVerb, RefusesBeforeAnythingIsRun) {
   refused({"--over", "share=0.1", "--error", "speed_J"}, "--error speed_J");
   refused({"--over", "share=0.1", "--error", "wall_seconds"}, "take one of largest_residual_J, time_s, ");
   refused({}, "--over");
+  refused({"--over", "share=0.1", "--along", "time_s"}, "--against");
+  refused({"--over", "share=0.1", "--show", "speed_J"}, "--show speed_J");
+  refused({"--over", "share=0.1", "--set", "speed"}, "key=value");
+  const std::string reference = (bounce.folder / "reference.csv").string();
+  writeText(reference, "time_s,particles_kinetic_J,residual_J\n0,1,0\n1,1,0\n");
+  refused({"--over", "share=0.1", "--against", reference}, "--error");
+  refused({"--over", "share=0.1", "--against", reference, "--error", "particles_contacts_J"},
+          "no column particles_contacts_J");
+  refused({"--over", "share=0.1", "--against", reference, "--error", "particles_kinetic_J", "--exact", "1"}, "--exact");
+  refused({"--over", "share=0.1", "--against", reference, "--error", "particles_kinetic_J", "--along", "t"},
+          "no column t");
+}
+
+TEST(StudyVerb, HoldsRunsToACurve) {
+  const Bounce bounce;
+  const std::string fine = (bounce.folder / "fine").string(), curve = fine + "/series.csv";
+  ASSERT_EQ(runProgram({"run", bounce.file, "--set", "share=0.01", "--out", fine}).code, 0);
+  const std::vector<std::string> words{
+      "study", bounce.file, "--over",  "share=0.05,0.1,0.2", "--error", "particles_kinetic_J", "--against",
+      curve,   "--out",     bounce.out};
+  const Outcome outcome = runProgram(words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json runs = Json::parse(readText(bounce.folder / "out/study.json"))["runs"];
+  ASSERT_EQ(runs.size(), 3u);
+  const auto curveIn = [](const std::filesystem::path& file) {
+    const io::TimeSeries series = io::readCsv(file);
+    const auto x = series.column("time_s"), y = series.column("particles_kinetic_J");
+    return Curve{"", {x.begin(), x.end()}, {y.begin(), y.end()}};
+  };
+  double before = 0.0;
+  for (const Json& run : runs) {
+    const std::string name = run["settings"]["folder"];
+    const CurveError error =
+        distanceFrom(curveIn(curve), curveIn(bounce.folder / ("out/" + name) / "series.csv"), Norm::mean);
+    EXPECT_EQ(run["error"].get<double>(), error.value);
+    EXPECT_EQ(run["covered"].get<double>(), error.covered);
+    EXPECT_GT(error.value, before);  // grows with the step
+    before = error.value;
+  }
+  EXPECT_NE(readText(bounce.folder / "out/curves.svg").find("reference"), std::string::npos);
+  EXPECT_NE(readText(bounce.folder / "out/study.md").find("| error | covered |"), std::string::npos);
+}
+
+TEST(StudyVerb, RunsWhatAFilePlans) {
+  const Bounce bounce;
+  const std::string file = (bounce.folder / "plan.json").string();
+  const auto write = [&](const std::string& over, const std::string& more) {
+    writeText(file, "{\"scene\": \"bounce.json\", \"set\": [{\"key\": \"speed\", \"value\": \"2\"}], \"over\": [" +
+                        over + "]" + more + "}");
+  };
+  const std::string points = R"({"points": [{"name": "free"},
+    {"name": "falling", "set": [{"key": "gravity", "value": "[0, 0, -9.81]"}]}]})",
+                    steps = R"({"key": "share", "values": "0.05, 0.1"})";
+  write(points + ", " + steps, R"(, "columns": "time_s", "error": "particles_kinetic_J", "exact": 0.02)");
+  const Outcome outcome = runProgram({"study", file, "--out", bounce.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json runs = Json::parse(readText(bounce.folder / "out/study.json"))["runs"];
+  ASSERT_EQ(runs.size(), 4u);
+  const char* const labels[] = {"free, share=0.05", "free, share=0.1", "falling, share=0.05", "falling, share=0.1"};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(runs[k]["label"], labels[k]);
+    EXPECT_EQ(runs[k]["error"].get<double>(), runs[k]["particles_kinetic_J"].get<double>() - 0.02);
+  }
+  EXPECT_NE(runs[0]["particles_gravity_J"], runs[2]["particles_gravity_J"]);
+  const std::string csv = readText(bounce.folder / "out/study.csv");
+  EXPECT_NE(csv.find(",gravity"), std::string::npos) << "settings that only some runs have are columns too";
+
+  // What is written goes before the file.
+  const Outcome less = runProgram({"study", file, "--over", "share=0.1", "--out", bounce.out + "2"});
+  ASSERT_EQ(less.code, 0) << less.err;
+  EXPECT_EQ(Json::parse(readText(bounce.folder / "out2/study.json"))["runs"].size(), 1u);
+
+  const auto refused = [&](const std::string& part) {
+    const Outcome bad = runProgram({"study", file, "--out", bounce.out + "3"});
+    EXPECT_EQ(bad.code, 2);
+    EXPECT_NE(bad.err.find(part), std::string::npos) << bad.err;
+    EXPECT_FALSE(std::filesystem::exists(bounce.out + "3"));
+  };
+  write(R"({"key": "share"})", "");
+  refused("\"key\" with \"values\"");
+  write(R"({"key": "share", "values": "0.1", "points": [{"name": "a"}]})", "");
+  refused("\"points\"");
+  write(steps, R"(, "eror": "time_s")");
+  refused("error");
+  write(steps, R"(, "exact": 1, "against": {"file": "bounce.json"}, "error": "time_s")");
+  refused("leave out one");
 }
 
 TEST(ReportVerb, WritesAPageOnARunWithItsNumbers) {

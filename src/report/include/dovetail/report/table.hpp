@@ -17,7 +17,7 @@ Json objectOf(const io::KeyValues& rows);
 Json numberOrNull(double value);
 /// One line per object below the provenance ('#') and a line of names. Fields of an object within are named
 /// outer_inner, those of "settings" by their own names; text is quoted, null is nan, true is 1.
-/// Columns are those of the entry with the most; what another one lacks is nan.
+/// Columns are those of the entry with the most, then what it lacks and others have; what an entry lacks is nan.
 /// @param entries  objects with keys in the same order
 std::string csvOf(const std::vector<Json>& entries, const io::KeyValues& provenance);
 
