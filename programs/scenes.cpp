@@ -15,6 +15,7 @@
 #include "dovetail/scene/units.hpp"
 #include "dovetail/scene/upgrade.hpp"
 #include "program/options.hpp"
+#include "study_plan.hpp"
 #include "verbs.hpp"
 
 namespace dovetail::program {
@@ -38,7 +39,10 @@ struct SceneFile {
     options.text("SCENE", name, "scene file (JSON)").require();
     options.texts("--set KEY=VALUE", settings, "a parameter of \"let\", or a path such as steps.dt");
   }
-  scene::Scene read() const { return scene::readScene(name, settings); }
+  scene::Scene read() const {
+    if (isStudy(name)) throw InputError("this is a study", name, "run it with dovetail study " + name);
+    return scene::readScene(name, settings);
+  }
 };
 
 struct Stepping {

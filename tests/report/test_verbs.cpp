@@ -199,6 +199,12 @@ TEST(StudyVerb, RunsWhatAFilePlans) {
   const std::string csv = readText(bounce.folder / "out/study.csv");
   EXPECT_NE(csv.find(",gravity"), std::string::npos) << "settings that only some runs have are columns too";
 
+  for (const char* const verb : {"run", "check"}) {
+    const Outcome asScene = runProgram({verb, file});
+    EXPECT_EQ(asScene.code, 2);
+    EXPECT_NE(asScene.err.find("dovetail study"), std::string::npos) << asScene.err;
+  }
+
   // What is written goes before the file.
   const Outcome less = runProgram({"study", file, "--over", "share=0.1", "--out", bounce.out + "2"});
   ASSERT_EQ(less.code, 0) << less.err;
