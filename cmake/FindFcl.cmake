@@ -9,7 +9,8 @@ find_library(Fcl_octomath_LIBRARY octomath)
 set(Fcl_parts Fcl_LIBRARY Fcl_INCLUDE_DIR Fcl_ccd_LIBRARY Fcl_ccd_INCLUDE_DIR Fcl_octomap_LIBRARY
               Fcl_octomap_INCLUDE_DIR Fcl_octomath_LIBRARY)
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(Fcl REQUIRED_VARS ${Fcl_parts})
+find_package_handle_standard_args(Fcl REQUIRED_VARS ${Fcl_parts}
+                                  REASON_FAILURE_MESSAGE "on Debian: apt install libfcl-dev")
 if(Fcl_FOUND AND NOT TARGET Fcl::Fcl)
   find_package(Eigen3 REQUIRED NO_MODULE)
   add_library(Fcl::Fcl UNKNOWN IMPORTED)

@@ -11,7 +11,8 @@ set(SuiteSparse_parts SuiteSparse_Cholmod_LIBRARY SuiteSparse_Umfpack_LIBRARY Su
                       SuiteSparse_Lapack_LIBRARY SuiteSparse_Blas_LIBRARY SuiteSparse_INCLUDE_DIR
                       SuiteSparse_Umfpack_INCLUDE_DIR)
 include(FindPackageHandleStandardArgs)
-find_package_handle_standard_args(SuiteSparse REQUIRED_VARS ${SuiteSparse_parts})
+find_package_handle_standard_args(SuiteSparse REQUIRED_VARS ${SuiteSparse_parts}
+                                  REASON_FAILURE_MESSAGE "on Debian: apt install libsuitesparse-dev")
 if(SuiteSparse_FOUND AND NOT TARGET SuiteSparse::Cholmod)
   foreach(part Cholmod Umfpack Config Lapack Blas)
     add_library(SuiteSparse::${part} UNKNOWN IMPORTED)

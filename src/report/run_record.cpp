@@ -119,6 +119,7 @@ RunRecord readRunFolder(const fs::path& folder) {
     record.series = io::readCsv(folder / "series.csv");
     record.provenance = provenanceOf(contentOf(folder / "series.csv"), "# ");
   }
+  if (there("modes.csv")) record.modes = io::readCsv(folder / "modes.csv");
   if (there("scene.json")) takeScene(contentOf(folder / "scene.json"), record);
   record.finished = there("summary.json");
   if (record.finished) try {

@@ -159,6 +159,23 @@ std::vector<Block> figuresOfSeries(const io::TimeSeries& series) {
   return blocks;
 }
 
+/// "time_mean_error_m" → "time mean error (m)"; names with blanks stay
+std::string labelOf(const std::string& key) {
+  if (key.find(' ') != std::string::npos) return key;
+  const std::string unit = io::unitOf(key);
+  return nameOf(key) + (unit == "1" ? "" : " (" + unit + ")");
+}
+
+std::vector<Block> frequenciesOf(const io::TimeSeries& modes) {
+  Table table;
+  for (const std::string& column : modes.names()) table.head.push_back(labelOf(column));
+  for (std::size_t row = 0; row < modes.rows(); ++row) {
+    auto& cells = table.rows.emplace_back();
+    for (const std::string& column : modes.names()) cells.push_back(format("%.5g", modes.column(column)[row]));
+  }
+  return {std::move(table)};
+}
+
 std::vector<Block> energyBalance(const RunRecord& record) {
   if (record.channels.empty()) return {};
   Table table{{"channel", "at opening (J)", "at the end (J)", "change (J)"}, {}};
@@ -192,13 +209,6 @@ std::vector<Block> timePerStage(const RunRecord& record) {
   Figure figure{"stages", "Time per part of a step", {}, {"s"}, {}, {}};
   for (const auto& stage : record.stages) figure.bars.emplace_back(stage.name, stage.seconds);
   return {std::move(figure), std::move(table)};
-}
-
-/// "time_mean_error_m" → "time mean error (m)"; names with blanks stay
-std::string labelOf(const std::string& key) {
-  if (key.find(' ') != std::string::npos) return key;
-  const std::string unit = io::unitOf(key);
-  return nameOf(key) + (unit == "1" ? "" : " (" + unit + ")");
 }
 
 /// Five digits of a number.
@@ -247,6 +257,7 @@ Page pageOf(const RunRecord& record, const Photo& photo) {
           Paragraph{"Lines end where no rows were written: stages that relax have one at their end."});
     page.sections.push_back({"Over time", std::move(figuresOverTime)});
   }
+  if (record.modes) page.sections.push_back({"Natural frequencies", frequenciesOf(*record.modes)});
   page.sections.push_back({"Energy balance", energyBalance(record)});
   io::KeyValues figures = record.figures;
   page.sections.push_back({"Balances", take(figures, {"residual"})});

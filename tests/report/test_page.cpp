@@ -161,6 +161,15 @@ TEST(RunReport, FiguresOfOneColumnSayWhatItIs) {
     EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
+TEST(RunReport, HasTheFrequenciesOfModes) {
+  const ScratchFolder folder;
+  writeText(folder / "summary.json", summary);
+  writeText(folder / "modes.csv", "stage,solid,mode,frequency_Hz\n1,0,1,16.47301\n1,0,2,32.85663\n");
+  const std::string html = readText(writeRunReport(folder.path()));
+  for (const char* part : {"Natural frequencies", "frequency (Hz)", ">16.473<", ">32.857<"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+}
+
 TEST(RunReport, OfARunThatWasBrokenOffSaysSo) {
   const ScratchFolder folder;
   writeText(folder / "series.csv", "time_s,plate_kinetic_J\n0,1\n");

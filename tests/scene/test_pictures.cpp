@@ -132,6 +132,7 @@ TEST(Pictures, ColoursEndAtRoundNumbers) {
   EXPECT_DOUBLE_EQ(range({-1.3, 0.4}, true).high, 1.5);
   EXPECT_LT(range({5.0, 5.0}).low, 5.0);
   EXPECT_GT(range({5.0, 5.0}).high, 5.0);
+  EXPECT_LT(range({0.2999, 0.3000}).low, 0.28);  // as good as the same
   EXPECT_LE(range({9.2, 10.1}).low, 9.2 + 1e-12);
   EXPECT_GT(range({9.2, 10.1}).low, 8.0);
   std::vector<double> values(2000, 1.0);

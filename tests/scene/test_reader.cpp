@@ -49,6 +49,17 @@ TEST(SceneReader, UnknownKeysAreToldBeforeValuesAreLookedAt) {
   EXPECT_EQ(refusal(both), "there is no key \"wals\" [s.json:12:3]: write \"walls\"");
 }
 
+TEST(SceneReader, ValuesInPlaceOfObjectsAreToldTheirKeys) {
+  const auto refused = [](const char* setting) { return refusal(smallScene, {setting}); };
+  EXPECT_NE(refused("contact=3").find("an object is expected [s.json, contact]: write {\"law\": …}"), std::string::npos)
+      << refused("contact=3");
+  EXPECT_NE(refused("particles=[{\"from\": \"packing\", \"radius\": 3}]")
+                .find("particles.0.radius]: write {\"smallest\": …, \"largest\": …}"),
+            std::string::npos)
+      << refused("particles=[{\"from\": \"packing\", \"radius\": 3}]");
+  EXPECT_NE(refused("stages=[3]").find("stages.0]: write {\"do\": …}"), std::string::npos) << refused("stages=[3]");
+}
+
 TEST(SceneReader, ControlCharactersAreRefused) {
   for (const char* text : {"a\\u0000b", "a\\nb", "\\u007f"}) {
     EXPECT_NE(refusal(replaced(smallScene, "linear", text)).find("control character [s.json:4:12]"), std::string::npos);

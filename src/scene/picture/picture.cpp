@@ -71,6 +71,9 @@ public:
   void prepare(const std::vector<std::size_t>& which) {
     for (const std::size_t k : which) spreadOver(frames_.read(k));
     for (Coloured* const field : {&grains_, &solids_, &lines_}) field->range = field->spread.range(field->hue.signs);
+    if (sharesQuantity())
+      grains_.range = solids_.range = {std::min(grains_.range.low, solids_.range.low),
+                                       std::max(grains_.range.high, solids_.range.high)};
     if (options_.grainRange) grains_.range = *options_.grainRange;
     if (options_.solidRange) solids_.range = *options_.solidRange;
     for (Coloured* const field : {&grains_, &solids_, &lines_})
@@ -308,17 +311,25 @@ private:
     return report::format("t = %.4g ", time * factor) + unit;
   }
 
-  static picture::Bar barOf(const Coloured& field) {
+  static picture::Bar barOf(const Coloured& field, const char* of = "") {
     const auto [low, high] = field.range;
     const auto [factor, unit] = prefixed(std::max(std::abs(low), std::abs(high)), field.hue.unit);
-    picture::Bar bar{field.hue.title + (unit.empty() ? "" : ", " + unit), picture::coloursOf(field.palette), {}};
-    for (const double tick : report::roundTicks(low * factor, high * factor, 6)) {
+    picture::Bar bar{field.hue.title + of + (unit.empty() ? "" : ", " + unit), picture::coloursOf(field.palette), {}};
+    const std::vector<double> ticks = report::roundTicks(low * factor, high * factor, 6);
+    const double most = std::max(std::abs(ticks.front()), std::abs(ticks.back()));
+    const int digits = std::max(4, static_cast<int>(std::ceil(std::log10(most / (ticks[1] - ticks[0])))) + 1);
+    for (const double tick : ticks) {
       const double fraction = (tick - low * factor) / ((high - low) * factor);
       const bool zero = std::abs(tick) < 1e-9 * (high - low) * factor;
       if (fraction > -1e-6 && fraction < 1.0 + 1e-6)
-        bar.ticks.emplace_back(fraction, report::format("%.4g", zero ? 0.0 : tick));
+        bar.ticks.emplace_back(fraction, report::format("%.*g", digits, zero ? 0.0 : tick));
     }
     return bar;
+  }
+
+  /// Grains and solids are coloured by the same quantity, such as the speed.
+  bool sharesQuantity() const {
+    return grains_.hue.name == solids_.hue.name && !grains_.spread.isEmpty() && !solids_.spread.isEmpty();
   }
 
   picture::Legend legendOf(double time) const {
@@ -328,9 +339,10 @@ private:
     if (options_.warp != 1.0) legend.time += report::format(",  displacements × %.4g", options_.warp);
     if (isDark()) legend.ink = {225, 225, 225};
     if (!grains_.hue.name.empty() && !grains_.spread.isEmpty() && options_.lines == "none")
-      legend.bars.push_back(barOf(grains_));
+      legend.bars.push_back(barOf(grains_, sharesQuantity() ? " of grains" : ""));
     if (!lines_.spread.isEmpty()) legend.bars.push_back(barOf(lines_));
-    if (!solids_.hue.name.empty() && !solids_.spread.isEmpty()) legend.bars.push_back(barOf(solids_));
+    if (!solids_.hue.name.empty() && !solids_.spread.isEmpty())
+      legend.bars.push_back(barOf(solids_, sharesQuantity() ? " of solids" : ""));
     const double target = 0.14 * options_.width * camera_.metresPerPixel,
                  unit = std::pow(10.0, std::floor(std::log10(target)));
     const double length = target >= 5.0 * unit ? 5.0 * unit : target >= 2.0 * unit ? 2.0 * unit : unit;

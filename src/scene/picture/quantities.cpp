@@ -96,9 +96,9 @@ ColourRange Spread::range(bool signs) const {
     const double most = roundedOut(std::max(-low_, high_));
     return {-most, most};
   }
-  // All the same but for round-off: the value stands in the middle.
+  // As good as the same: the value stands in the middle.
   const double size = std::max(std::abs(low_), std::abs(high_));
-  if (high_ - low_ <= 1e-9 * size)
+  if (high_ - low_ <= 1e-3 * size)
     return size == 0.0 ? ColourRange{0.0, 1.0} : ColourRange{low_ - 0.1 * size, low_ + 0.1 * size};
   if (low_ >= 0.0 && low_ < 0.4 * high_) return {0.0, roundedOut(high_)};
   if (high_ <= 0.0 && high_ > 0.4 * low_) return {roundedOut(low_), 0.0};

@@ -22,12 +22,11 @@ namespace {
 class Reader final : public Fields, Values {
 public:
   Reader(Document& document, const Node& node, std::string path)
-      : Values(document, std::move(path)), document_(document), node_(node) {
-    if (node.kind != Node::Kind::object) refuse(node, nameOf(node) + " where an object is expected", "write { … }");
-  }
+      : Values(document, std::move(path)), document_(document), node_(node) {}
 
   /// @throws InputError for keys that nobody asked for, or that were asked for and are not there
   void finish() const {
+    if (node_.kind != Node::Kind::object) refuseAsNoObject();
     for (const Node::Member& member : node_.members)
       if (std::find(known_.begin(), known_.end(), member.key) == known_.end())
         throw InputError("there is no key \"" + member.key.substr(0, 80) + "\"", placeOf(member.place),
@@ -167,6 +166,7 @@ protected:
     take(key, false);
     const Node* node = node_.find(key.name);
     if (!node && !needed) return now;
+    if (node_.kind != Node::Kind::object) refuseAsNoObject();
     if (!node) {  // without it all other keys would look unknown
       for (const Node::Member& member : node_.members)
         if (const std::string near = nearest(member.key, {key.name}); !near.empty())
@@ -217,6 +217,13 @@ protected:
   }
 
 private:
+  /// Once the keys are known that it should have.
+  [[noreturn]] void refuseAsNoObject() const {
+    std::string keys;
+    for (const std::string& key : missing_.empty() ? known_ : missing_)
+      if (keys.size() < 60) keys += (keys.empty() ? "\"" : ", \"") + key + "\": …";
+    refuse(node_, nameOf(node_) + " where an object is expected", "write {" + keys + "}");
+  }
   const Node* take(Key key, bool needed) {
     known_.push_back(key.name);
     const Node* node = node_.find(key.name);

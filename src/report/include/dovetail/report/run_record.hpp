@@ -17,6 +17,7 @@ struct RunRecord {
   bool finished = false;     ///< it wrote a summary
   io::KeyValues provenance;  ///< of the series, or of the scene
   std::optional<io::TimeSeries> series;
+  std::optional<io::TimeSeries> modes;          ///< of stages that find modes, a row per mode
   std::vector<EnergyLedger::Channel> channels;  ///< at opening and at the end, J
   std::optional<double> residual;               ///< of the energy balance, J, where it is known better than by these
   std::vector<Profile::Row> stages;             ///< time per part of a step
@@ -25,8 +26,8 @@ struct RunRecord {
   std::string summary, scene;                   ///< their text; the scene with every key
 };
 
-/// Reads series.csv, scene.json, summary.json and the text of summary.txt, as far as they are there.
-/// @throws InputError if there is none of the first three, or one is damaged or of another version
+/// Reads series.csv, modes.csv, scene.json, summary.json and the text of summary.txt, as far as they are there.
+/// @throws InputError if there is no series, scene or summary, or one is damaged or of another version
 RunRecord readRunFolder(const std::filesystem::path& folder);
 
 }  // namespace dovetail::report
