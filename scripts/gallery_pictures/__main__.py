@@ -7,7 +7,7 @@ import page
 import runs
 from pictures import PICTURES
 
-IMAGES = Path("docs/images/gallery")
+IMAGES = Path("docs/images")
 
 
 def main(program, *names):
@@ -16,7 +16,6 @@ def main(program, *names):
     if unknown:
         print(f"gallery: no picture {', '.join(sorted(unknown))}; there are {', '.join(known)}", file=sys.stderr)
         return 2
-    IMAGES.mkdir(parents=True, exist_ok=True)
     for picture in PICTURES:
         if not names or picture.file in names:
             runs.run(program, picture)
