@@ -1,9 +1,11 @@
 // What a model holds, what it can bear.
 #include <algorithm>
 
+#include "../particles/four_moves.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/vector_code.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/model/impact.hpp"
 #include "dovetail/dem/model/model.hpp"
@@ -120,15 +122,17 @@ Momenta weight(const Model& m) {
   if (m.gravity == Vec3{}) return {};
   const Particles& p = m.particles;
   Momenta sum = parallelSum(p.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
-    double mass = 0.0;
-    Vec3 first;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (p.isMember(i)) continue;
-      const double own = p.weightOf(i) * p.mass[i];
-      mass += own;
-      first += own * p.x[i];
-    }
-    return Momenta{mass * m.gravity, cross(first, m.gravity)};
+    detail::MassMoments sums;
+    std::size_t i = begin;
+    if (p.owner.empty())
+      withVectors([&, end] {
+        detail::MassMoments fours;
+        for (; i + 4 <= end; i += 4) fours.addFour(p, i);
+        sums = fours;
+      });
+    for (; i < end; ++i)
+      if (!p.isMember(i)) sums.add(p.weightOf(i) * p.mass[i], p.x[i]);
+    return Momenta{sums.mass() * m.gravity, cross(sums.moment(), m.gravity)};
   });
   for (const BodyTerm* term : m.terms.all<BodyTerm>())
     for (std::size_t b = 0; b < term->bodies.size(); ++b) sum.add(term->bodies.x[b], term->bodies.mass[b] * m.gravity);

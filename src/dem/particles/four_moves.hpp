@@ -1,4 +1,4 @@
-// Half kicks and drift of four particles side by side.
+// Four particles side by side: half kicks and drift, moments of mass.
 #pragma once
 
 #include <limits>
@@ -69,5 +69,31 @@ struct ByPlaces {
   store(f + 8, weight.c * Four{g.z, g.x, g.y, g.z});
   return true;
 }
+
+/// Σ m, kg, and Σ m x, kg m.
+struct MassMoments {
+  Four masses{}, first{}, second{}, third{};  // of every fourth particle; of x y z x, y z x y, z x y z
+
+  /// Particles i … i + 3.
+  [[gnu::always_inline]] void addFour(const Particles& particles, std::size_t i) {
+    const double* const x = &particles.x[i].x;
+    Four mass = loadRow(particles.mass.data() + i);
+    if (!particles.weight.empty()) mass *= loadRow(particles.weight.data() + i);
+    const ByPlaces each = byPlaces(mass);
+    masses += mass;
+    first += each.a * loadRow(x);
+    second += each.b * loadRow(x + 4);
+    third += each.c * loadRow(x + 8);
+  }
+  void add(double mass, const Vec3& x) {
+    masses[0] += mass;
+    for (int k = 0; k < 3; ++k) first[k] += mass * x[k];
+  }
+  double mass() const { return (masses[0] + masses[1]) + (masses[2] + masses[3]); }
+  Vec3 moment() const {
+    return {(first[0] + first[3]) + (second[2] + third[1]), (first[1] + second[0]) + (second[3] + third[2]),
+            (first[2] + second[1]) + (third[0] + third[3])};
+  }
+};
 
 }  // namespace dovetail::dem::detail
