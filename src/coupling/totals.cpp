@@ -3,6 +3,7 @@
 #include <iomanip>
 #include <ostream>
 
+#include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/fem/motion/support_kick.hpp"
 #include "run_impl.hpp"
 
@@ -14,7 +15,9 @@ Totals CoupledRun::Impl::sums() const {
   sum.momentum = particles.linear;
   sum.angularMomentum = particles.angular;
   for (std::size_t i = 0; i < grains.particles.size(); ++i)
-    sum.mass += grains.particles.weightOf(i) * grains.particles.mass[i];
+    if (!grains.particles.isMember(i)) sum.mass += grains.particles.weightOf(i) * grains.particles.mass[i];
+  for (const dem::BodyTerm* term : grains.terms.all<dem::BodyTerm>())
+    for (const double mass : term->bodies.mass) sum.mass += mass;
   for (const auto& solid : solids) {
     const Momenta own = fem::momentaOf(solid->side.nodes(), *solid->side.mass);
     sum.momentum += own.linear;

@@ -136,6 +136,8 @@ TEST(Insertions, BringClumps) {
   double mass = 0.0;
   for (const double m : term->bodies.mass) mass += m;
   EXPECT_NEAR(mass, firstOf(built).insertedMass, 1e-12);
+  EXPECT_NEAR(built.run->totals().mass, mass, 1e-12);  // of bodies, not of their spheres
+  EXPECT_NEAR(built.run->totals().massResidual, 0.0, 1e-12);
   const double one = 4.0 / 3.0 * std::numbers::pi * 1000.0;
   EXPECT_NEAR(firstOf(built).settings.shapes[0].properties.mass, 2.0 * one * 8e-6, 1e-9);
   EXPECT_NEAR(firstOf(built).settings.shapes[1].properties.mass, one * 27e-6, 1e-9);
