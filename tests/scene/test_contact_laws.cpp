@@ -144,6 +144,14 @@ TEST(ContactLaws, DampingOfTheScene) {
   EXPECT_NEAR(residual(local), 0.0, 1e-6 * joules(local, "particles: damping"));
 }
 
+TEST(ContactLaws, DampingBeyondTheStepIsRefused) {
+  const std::string grain =
+      R"("particles": [{"from": "list", "density": 1, "spheres": [{"at": [0, 0, 0], "radius": 0.01}]}],)";
+  expectParts(refusalWith(law, R"("damping": {"rate": 6e4}, )" + grain),
+              {"damping rate is 60000 1/s", "0.6 in a step", "damping", "a smaller step"});
+  EXPECT_EQ(refusalWith(law, R"("damping": {"rate": 4e4}, )" + grain), "");
+}
+
 TEST(ContactLaws, GrainsMaySpinAtTheStart) {
   const Built built = build(sceneOf(R"("particles": [
       {"from": "lattice", "lattice": "simple-cubic", "box": [[0, 0, 0], [0.2, 0.2, 0.2]], "radius": 0.1, "density": 1},

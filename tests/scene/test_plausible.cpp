@@ -57,6 +57,16 @@ TEST(ScenePlausible, SpringsHarderThanDiamond) {
   EXPECT_EQ(bedWith("1e5", "1e10"), "");
 }
 
+TEST(ScenePlausible, BridgesLargerThanGrains) {
+  const auto withBridge = [](const char* volume) {
+    return bedWith(
+        R"("restitution": 0.8)",
+        std::string(R"("restitution": 0.8, "liquid_bridge": {"surface_tension": 0.07, "volume": )") + volume + "}");
+  };
+  expectParts(withBridge("\"5 cm3\""), {"contact.liquid_bridge.volume is 5e-06 m3", "smallest grain", "\"mm3\""});
+  EXPECT_EQ(withBridge("\"5 mm3\""), "");
+}
+
 TEST(ScenePlausible, GrainsOfVeryDifferentSizes) {
   const auto of = [](const std::string& radius) {
     return warningsAtAnyStep(

@@ -231,6 +231,53 @@ TEST(ScenePlanes, CarryWhatIsPushedOntoThem) {
   EXPECT_NEAR(displacementAt(built, {0, 0, 4}).z + 1e-5, -4e-3, 1e-5);
 }
 
+std::string planeAt(double z) {
+  return R"("planes": [{"on": "z-", "normal": [0, 0, 1], "point": [0, 0, )" + std::to_string(z) + "]}]";
+}
+TEST(ScenePlanes, SolidsBehindThemAreSeen) {
+  const std::string run = R"({"do": "run", "time": 0.01})";
+  expectParts(refusalOf(staticScene(bar(planeAt(5.0)), run)), {"all of \"bar\" lies behind the plane", "planes.0"});
+  const auto warned = [&](double z) {
+    const Scene scene = staticScene(bar(planeAt(z)), run);
+    const Built built = started(scene);
+    std::string all;
+    for (const std::string& line : warnings(built, scene)) all += line;
+    return all;
+  };
+  expectParts(warned(0.5), {"\"bar\" starts 0.5 m behind solids.0.planes.0"});
+  EXPECT_EQ(warned(0.0).find("behind"), std::string::npos);
+}
+
+/// A block that just touches its plane, with nothing else along its normal, in the first of its load steps.
+TEST(ScenePlanes, ATouchingPlaneHoldsASolidInLoadSteps) {
+  const std::string keys = planeAt(0.0) + R"(, "loads": [{"on": "z+", "type": "pressure", "pressure": "1e4*t"}])";
+  Built built = loaded(staticScene(bar(keys, R"({"on": "x-", "components": ["x"]}, {"on": "y-", "components": ["y"]})"),
+                                   R"({"do": "statics", "load_steps": 4, "time": 1})"));
+  EXPECT_NEAR(displacementAt(built, {0, 0, 4}).z - displacementAt(built, {0, 0, 0}).z, -0.04, 1e-3);
+  double work = 0.0;
+  for (const auto& one : built.run->ledger().channels()) work = std::max(work, std::abs(one.joules));
+  EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-3 * work);
+}
+
+/// Half of a load step's viscous work is in no channel: of the first, where rates start from none. Supports do none.
+TEST(SceneStatics, ViscositiesAreInTheLedgerToFirstOrder) {
+  const auto of = [](int steps) {
+    std::string keys = bar(R"("loads": [{"on": "z+", "type": "traction", "traction": [0, 0, 1000]}])");
+    keys.replace(keys.find("\"density\""), 0, R"("damping_time": 0.02, )");
+    Built built =
+        loaded(staticScene(keys, R"({"do": "statics", "time": 1, "load_steps": )" + std::to_string(steps) + "}"));
+    const double dissipated = channel(built, "bar: dissipated in load steps");
+    EXPECT_GT(dissipated, 0.0);
+    for (const auto& one : built.run->ledger().channels())
+      if (one.name == "bar: supports") {
+        EXPECT_NEAR(one.joules, 0.0, 1e-3 * dissipated);
+      }
+    return built.run->ledger().residual() / dissipated;
+  };
+  EXPECT_NEAR(of(10), 0.05, 0.01);
+  EXPECT_NEAR(of(20), 0.025, 0.005);
+}
+
 TEST(SceneDamping, MassDampingSlowsAFreeBody) {
   Built built =
       started(staticScene(bar(R"("mass_damping": 5, "velocity": [1, 0, 0])", ""), R"({"do": "run", "time": 0.1})"));
@@ -254,6 +301,18 @@ TEST(SceneDamping, ViscosityShortensExplicitSteps) {
 
 TEST(SceneModes, ABuiltBarRefusesWhatHasNone) {
   const std::string stage = R"({"do": "modes", "count": 2})";
+  const auto following = [&](const char* follows) {
+    try {
+      started(staticScene(bar(std::string(R"("loads": [{"on": "z+", "type": "pressure", "pressure": 10, "follows": )") +
+                              follows + "}]"),
+                          stage));
+      return std::string();
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(following("false"), "");
+  expectParts(following("true"), {"\"load 0 on z+\" of \"bar\" is not symmetric", "stages.0", "\"follows\": false"});
   EXPECT_EQ(refusalOf(staticScene(bar(pulled), stage)), "");
   expectParts(refusalOf(staticScene("", stage)), {"the scene has none", "stages.0"});
 }

@@ -30,28 +30,15 @@ public:
     u_ = balance_.model().nodes.u;
     f_.assign(balance_.forces().begin(), balance_.forces().end());
     loads_.assign(balance_.loads().begin(), balance_.loads().end());
-    residual_.assign(balance_.residual().begin(), balance_.residual().end());
   }
 
 private:
   /// What is out of balance along the free components goes into motion, and is damped by the end.
-  void book() {
-    double free = 0.0;
-    const std::span<const int> dofs = balance_.dofs().freeDofs();
-    for (std::size_t i = 0; i < dofs.size(); ++i) {
-      const auto n = static_cast<std::size_t>(dofs[i] / 3);
-      const int c = dofs[i] % 3;
-      free += 0.5 * (residual_[i] + balance_.residual()[i]) * (balance_.model().nodes.u[n][c] - u_[n][c]);
-    }
-    report_.damped += free;
-    report_.supportWork += free;
-    bookWork(balance_, f_, loads_, u_, report_);
-  }
+  void book() { report_.damped += bookWork(balance_, f_, loads_, u_, report_); }
 
   const Balance& balance_;
   StaticReport& report_;
   std::vector<Vec3> u_, f_, loads_;
-  std::vector<double> residual_;
 };
 
 }  // namespace

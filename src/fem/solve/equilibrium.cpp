@@ -50,7 +50,12 @@ Balance::Balance(Model& model, double relative, double absolute)
       forces_(model.nodes.X.size()),
       loads_(forces_.size()),
       scratch_(forces_.size()),
-      residual_(dofs_.size()) {}
+      residual_(dofs_.size()) {
+  Vec3 lower = model.nodes.X.front(), upper = lower;
+  for (const Vec3& X : model.nodes.X)
+    for (int c = 0; c < 3; ++c) lower[c] = std::min(lower[c], X[c]), upper[c] = std::max(upper[c], X[c]);
+  far_ = 1e3 * norm(upper - lower) * std::sqrt(static_cast<double>(model.nodes.X.size()));
+}
 
 double Balance::findForces() {
   const auto start = Clock::now();
@@ -67,7 +72,11 @@ double Balance::findForces() {
     }
   }
   dofs_.reduce(forces_, residual_);
-  zero_ = relative_ * largest + absolute_ + resolution_.worstAt(normOf(model_.nodes.u));
+  const double displacement = normOf(model_.nodes.u);
+  double roundOff = resolution_.worstAt(displacement);
+  // A body that nothing holds gets away until its forces are lost in round-off: that is no equilibrium.
+  if (displacement > far_) roundOff = std::min(roundOff, 1e-3 * largest);
+  zero_ = relative_ * largest + absolute_ + roundOff;
   assemblySeconds_ += since(start);
   return normOf(residual_);
 }
@@ -140,14 +149,24 @@ void Equilibrium::describe(StaticReport& report) const {
   report.solverSeconds = solverSeconds_;
 }
 
-void bookWork(const Balance& balance, std::span<const Vec3> f0, std::span<const Vec3> loads0, std::span<const Vec3> u0,
-              StaticReport& report) {
+double bookWork(const Balance& balance, std::span<const Vec3> f0, std::span<const Vec3> loads0,
+                std::span<const Vec3> u0, StaticReport& report) {
+  const std::vector<Vec3>& u = balance.model().nodes.u;
+  double all = 0.0, free = 0.0;
   for (std::size_t n = 0; n < u0.size(); ++n) {
-    const Vec3 motion = balance.model().nodes.u[n] - u0[n];
+    const Vec3 motion = u[n] - u0[n];
     report.loadWork += 0.5 * dot(loads0[n] + balance.loads()[n], motion);
-    // In equilibrium the sum of all forces differs from zero where supports hold or move the node.
-    report.supportWork -= 0.5 * dot(f0[n] + balance.forces()[n], motion);
+    all += 0.5 * dot(f0[n] + balance.forces()[n], motion);
   }
+  std::vector<double> residual0(balance.dofs().size());
+  balance.dofs().reduce(f0, residual0);
+  for (std::size_t i = 0; i < residual0.size(); ++i) {
+    const auto dof = static_cast<std::size_t>(balance.dofs().freeDofs()[i]);
+    const int c = static_cast<int>(dof % 3);
+    free += 0.5 * (residual0[i] + balance.residual()[i]) * (u[dof / 3][c] - u0[dof / 3][c]);
+  }
+  report.supportWork -= all - free;
+  return free;
 }
 
 void acceptTerms(Model& model, const Instant& now, StaticReport& report) {

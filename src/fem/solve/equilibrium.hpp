@@ -52,6 +52,7 @@ protected:
 private:
   Model& model_;
   double relative_, absolute_, zero_ = 0.0;
+  double far_ = 0.0;  // a thousand times the extent, as a norm of displacements, m
   Instant now_;
   DofMap dofs_;
   std::vector<Vec3> forces_, loads_, scratch_;
@@ -99,9 +100,10 @@ void validate(const NewtonOptions& options);
 void requireLater(double tEnd, const Model& model, const char* where);
 NewtonPolicy policyOf(const NewtonOptions& options);
 
-/// Books the work of a step from (f0, u0) to the present forces and displacement by the trapezoidal rule.
-void bookWork(const Balance& balance, std::span<const Vec3> f0, std::span<const Vec3> loads0, std::span<const Vec3> u0,
-              StaticReport& report);
+/// Books the work of loads and supports in a step from (f0, u0) to the present forces and displacement by the
+/// trapezoidal rule. @return J that was done by what was out of balance along the free components, which is not booked
+double bookWork(const Balance& balance, std::span<const Vec3> f0, std::span<const Vec3> loads0,
+                std::span<const Vec3> u0, StaticReport& report);
 
 /// The terms adopt their history; books what they dissipated and what their own motion did.
 void acceptTerms(Model& model, const Instant& now, StaticReport& report);

@@ -47,7 +47,7 @@ struct ContactPointLaw {
     return answer;
   }
 
-  /// −∂traction/∂d; for a point under pressure.
+  /// −∂traction/∂d; for a point that touches.
   std::array<double, 9> tangent(const ContactAnswer& answer) const {
     std::array<double, 9> K = scaledOuterProduct(penalty, normal, normal);
     if (friction == 0.0) return K;

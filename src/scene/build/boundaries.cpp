@@ -234,6 +234,10 @@ void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std:
   fem::Plane rigid{.point = plane.point, .normal = plane.normal};
   const bool moves = plane.displacement || !isConstant(plane.velocity) || norm(constantOf(plane.velocity)) > 0.0;
   if (moves) rigid.motion = pathOf(plane.velocity, plane.displacement, scene).displacement;
+  if (!solid.state &&
+      std::ranges::all_of(mesh.X, [&](const Vec3& X) { return dot(X - plane.point, plane.normal) < 0.0; }))
+    throw InputError("all of \"" + solid.name + "\" lies behind the plane", "",
+                     "turn its normal round, or move its point");
   model.add(fem::makeContactPlane(mesh, faces, rigid, options));
 }
 

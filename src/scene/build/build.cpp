@@ -64,7 +64,7 @@ std::vector<StepLimit> limitsOfParts(Built& built, const Scene& scene) {
 /// Stability asks for no more than two steps in an impact, which then knows nothing of its energy. A fifth of its limit
 /// gives it eight, and the ledger is right to a twentieth of what changes hands. Bonded springs last: infinite.
 Impact resolvedImpact(const Built& built, const Scene& scene) {
-  constexpr double shareOfImpact = 0.2;
+  constexpr double ofImpact = 0.2;
   const dem::Model& grains = built.run->grains;
   if (std::isinf(grains.laws->reach())) return {};
   Impact impact = briefestImpact(scene, grains.particles);
@@ -72,7 +72,7 @@ Impact resolvedImpact(const Built& built, const Scene& scene) {
     if (changesLaws(scene.stages[k]))
       if (const Impact then = briefestImpact(lawsAt(scene, k), grains.particles); then.limit < impact.limit)
         impact = then;
-  impact.limit *= shareOfImpact;
+  impact.limit *= ofImpact;
   return impact;
 }
 
@@ -169,6 +169,10 @@ void requireStatics(const Scene& scene) {
 /// Explicit steps know the velocity of half a step ago.
 void requireSlowDamping(const Built& built, const Scene& scene) {
   constexpr double most = 0.5;
+  if (scene.damping && scene.damping->rate * built.run->dt() > most)
+    throw InputError("the damping rate is " + formatNumber(scene.damping->rate) + " 1/s, " +
+                         rounded(scene.damping->rate * built.run->dt()) + " in a step of the grains",
+                     scene.damping->where, "take a lower one, or a smaller step");
   for (std::size_t s = 0; s < scene.solids.size(); ++s)
     if (const Solid& solid = scene.solids[s]; !solid.implicitSteps && solid.massDamping * built.run->macroStep() > most)
       throw InputError("mass_damping is " + formatNumber(solid.massDamping) + " 1/s, " +
@@ -223,6 +227,21 @@ void foreseeSolvers(Built& built) {
   }
 }
 
+/// Which depend on the mesh: rims of pressures that follow the faces.
+void requireSymmetry(const Built& built, const Scene& scene) {
+  const auto stage =
+      std::ranges::find_if(scene.stages, [](const Stage& one) { return std::holds_alternative<FindModes>(one.kind); });
+  if (stage == scene.stages.end()) return;
+  for (std::size_t s = 0; s < built.run->solids(); ++s)
+    for (const auto& term : built.run->solid(s).model->terms)
+      if (!term->isSymmetric())
+        throw InputError("the tangent of \"" + term->name() + "\" of \"" + built.run->solid(s).name +
+                             "\" is not symmetric, so that there may be no modes",
+                         stage->where,
+                         "take pressures with \"follows\": false, planes without friction, and materials whose tangent "
+                         "is symmetric");
+}
+
 void requireStableStages(const Built& built, const Scene& scene, double dt) {
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
     if (!scene.stages[k].changes) continue;
@@ -264,6 +283,7 @@ void start(Built& built, const Scene& scene) {
     throw InputError("all grains lie outside of the domain and are removed at once", scene.domain->where,
                      "make domain.box larger, or move the grains into it");
   requireSlowDamping(built, scene);
+  requireSymmetry(built, scene);
   for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
   foreseeSolvers(built);
 }

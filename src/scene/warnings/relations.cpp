@@ -1,6 +1,7 @@
 // Numbers of a scene that do not go with each other.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "build/extent.hpp"
 #include "build/parts.hpp"
@@ -10,6 +11,7 @@
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 #include "warnings.hpp"
 
 namespace dovetail::scene {
@@ -91,6 +93,22 @@ void lookAtPressures(const std::string& of, const Solid& solid, double modulus, 
                       " Pa: check the units of both.");
 }
 
+/// Springs of planes throw a solid out that starts deep behind them.
+void lookAtPlanes(const std::string& of, const Solid& solid, const fem::Model& model, double modulus, Lines& lines) {
+  constexpr double most = 0.01;
+  std::size_t number = 0;
+  for (const auto& term : model.terms) {
+    const auto* const plane = dynamic_cast<const fem::ContactPlane*>(term.get());
+    if (!plane) continue;
+    const fem::ContactPlane::Report report = plane->report(model.nodes, {.t = model.t});
+    if (report.largestPressure > most * modulus)
+      lines.push_back(quoted(solid.name) + " starts " + rounded(report.deepest) + " m behind " + of + ".planes." +
+                      std::to_string(number) + ", whose springs press it with " + rounded(report.largestPressure) +
+                      " Pa: move either, so that they touch at most.");
+    ++number;
+  }
+}
+
 void lookAtAspects(const std::string& of, const Solid& solid, const fem::SolidMesh& mesh, Lines& lines) {
   constexpr double slender = 60.0;
   const std::vector<fem::ElementQuality> all = fem::measureQuality(mesh, 0).element;
@@ -114,13 +132,26 @@ void lookAtSpring(const std::string& key, const ContactLaw& law, double radius, 
                     " N/m, as of stone, or less.");
 }
 
+/// A pendular bridge is a small part of its grains.
+void lookAtBridge(const std::string& key, const ContactLaw& law, double radius, Lines& lines) {
+  const double grain = 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+  if (law.liquidBridge && law.liquidBridge->volume > grain)
+    lines.push_back(key + ".liquid_bridge.volume is " + rounded(law.liquidBridge->volume) +
+                    " m3, more than the smallest grain has (" + rounded(grain) + " m3): write " +
+                    rounded(0.01 * grain) + ", a hundredth of it, or check its unit (\"mm3\").");
+}
+
 void lookAtSprings(const Scene& scene, const dem::Particles& p, Lines& lines) {
   double smallest = Extent::nowhere;
   for (const double radius : p.radius) smallest = std::min(smallest, radius);
   for (const Insertion& one : scene.insertions) smallest = std::min(smallest, enteringOf(one).smallest);
-  if (scene.contact) lookAtSpring("contact", *scene.contact, smallest, lines);
+  const auto lookAt = [&](const std::string& key, const ContactLaw& law) {
+    lookAtSpring(key, law, smallest, lines);
+    lookAtBridge(key, law, smallest, lines);
+  };
+  if (scene.contact) lookAt("contact", *scene.contact);
   for (std::size_t k = 0; k < scene.contacts.size(); ++k)
-    lookAtSpring("contacts." + std::to_string(k), scene.contacts[k].law, smallest, lines);
+    lookAt("contacts." + std::to_string(k), scene.contacts[k].law);
 }
 
 /// Of the slowest of the bonds with that damping, s.
@@ -271,6 +302,7 @@ void lookAtRelations(const Built& built, const Scene& scene, Lines& lines) {
       largest = std::max(largest, modulus);
     }
     lookAtPressures(of, solid, largest, scene, lines);
+    lookAtPlanes(of, solid, *built.run->solid(s).model, largest, lines);
     lookAtAspects(of, scene.solids[s], built.meshes[s], lines);
     lookAtLocking(built, scene.solids[s], s, lines);
   }

@@ -115,7 +115,9 @@ void lookAtNames(const Scene& scene, Lines& lines) {
   for (const Coupling& one : scene.couplings)
     if (const auto* const contact = std::get_if<SurfaceContact>(&one.kind))
       usedMaterials.insert(contact->contactMaterial);
-  lookForUnused(materials, usedMaterials, "The contact material", lines);
+  const bool states = std::ranges::any_of(
+      scene.particles, [](const Particles& one) { return std::holds_alternative<GrainsOfState>(one.from); });
+  if (!states) lookForUnused(materials, usedMaterials, "The contact material", lines);  // grains of a state have theirs
   for (const std::string& name : scene.unusedParameters)
     lines.push_back("The parameter " + quoted(name) + " is not used: leave it out, or use it where it is meant.");
 }
