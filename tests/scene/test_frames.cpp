@@ -64,6 +64,28 @@ std::set<std::string> arraysIn(const std::filesystem::path& pvd) {
 }
 using Names = std::set<std::string>;
 
+/// The first frame is the equilibrium that a stage without time ends with.
+TEST(SceneFrames, AStageWithoutTimeReplacesTheFrameBefore) {
+  const Scene loaded = sceneFromText(R"({"solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 4],
+      "box": [[0, 0, 0], [1, 1, 4]], "supports": [{"on": "z-"}],
+      "material": {"law": "St-Venant-Kirchhoff", "youngs_modulus": 1e6, "poisson_ratio": 0, "density": 1000},
+      "loads": [{"on": "z+", "type": "traction", "traction": [0, 0, 1000]}]}], "steps": {"dt": 1e-4},
+      "stages": [{"do": "statics"}, {"do": "run", "time": 2e-3}], "output": {"frames": 1e-3}})",
+                                     "s.json", "/");
+  const ScratchFolder folder;
+  std::ostringstream log, checked;
+  ASSERT_TRUE(run(loaded, {.folder = folder / "out", .progress = false}, log));
+  const auto frames = io::readPvd(folder / "out/solid_bar.pvd");
+  ASSERT_EQ(frames.size(), 3U);
+  EXPECT_EQ(frames.front().first, 0.0);
+  double most = 0.0;
+  for (const io::FrameArray& array : io::readFrame(frames.front().second).arrays)
+    if (array.name == "displacement") most = *std::ranges::max_element(array.values);
+  EXPECT_NEAR(most, 4e-3, 1e-5);  // σ L/E
+  check(loaded, checked);
+  EXPECT_NE(checked.str().find("frames: 3 of"), std::string::npos) << checked.str();
+}
+
 TEST(FieldProfile, HasMeansOfLayersAndTheErrorsOfHandCalculations) {
   // Two layers of 3 × 2 points, one kernel's diameter apart.
   const cg::Grid grid{{0, 0, 5}, {2.0, 2.0, 0.5}, {3, 2, 2}};

@@ -24,6 +24,7 @@ struct Frames::Impl {
   bool has(const char* word) const { return std::find(contents.begin(), contents.end(), word) != contents.end(); }
   void addGrains(const dem::Particles& particles, double time);
   void addSolid(std::size_t s, const Built& built, double time);
+  void dropLast();
 };
 
 namespace {
@@ -80,6 +81,12 @@ void Frames::Impl::addSolid(std::size_t s, const Built& built, double time) {
   solids[s].write(time, solid_io::vtuText(mesh, fields, io::withMark(provenance)));
 }
 
+void Frames::Impl::dropLast() {
+  for (std::vector<io::VtuSeries>* const all : {&grains, &contacts, &bonds, &solids, &walls})
+    for (io::VtuSeries& one : *all) one.dropLast();
+  times.pop_back();
+}
+
 Frames::Frames(const Built& built, const Scene& scene, const std::filesystem::path& folder,
                const io::KeyValues& provenance, const std::vector<double>& times)
     : impl_(std::make_unique<Impl>(Impl{scene.output.contents, {}, provenance, times})) {
@@ -109,6 +116,7 @@ std::vector<double> Frames::times() const { return impl_->times; }
 void Frames::add(const Built& built) {
   const double time = built.run->time();
   const dem::Model& grains = built.run->grains;
+  if (!impl_->times.empty() && impl_->times.back() == time) impl_->dropLast();  // what a stage without time changes
   if (!impl_->grains.empty()) impl_->addGrains(grains.particles, time);
   if (!impl_->contacts.empty()) addLines(impl_->contacts[0], time, contactLines(grains));
   if (!impl_->bonds.empty()) addLines(impl_->bonds[0], time, bondLines(grains));

@@ -87,7 +87,12 @@ Frames framesOf(const Built& built, const Scene& scene, const Plan& plan) {
   auto count = static_cast<double>(grains.particles.size());
   for (const Insertion& one : scene.insertions) count += 0.5 * expectedIn(one, timeOf(scene));
   constexpr double head = 2000.0;
-  return {timesWritten(plan, scene, plan.frames),
+  // A stage in which no time passes replaces the frame before.
+  const auto replaced = std::ranges::count_if(scene.stages, [](const Stage& stage) {
+    const auto* const statics = std::get_if<Statics>(&stage.kind);
+    return statics && !statics->time;
+  });
+  return {timesWritten(plan, scene, plan.frames) - (plan.frames > 0 ? replaced : 0),
           head + bytesOfGrains(grains, count, scene.output.contents) + bytesOfSolids(built, scene.output.contents)};
 }
 

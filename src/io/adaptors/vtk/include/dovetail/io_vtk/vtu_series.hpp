@@ -116,6 +116,10 @@ public:
   void write(double time, const PolyFrame& frame);
   /// The bytes of a VTU file that somebody else has made, which should carry the mark (output_folder.hpp).
   void write(double time, const std::string& vtu);
+  /// Takes the last frame back: the next one has its place.
+  void dropLast() {
+    if (!times_.empty()) times_.pop_back();
+  }
 
   std::size_t frames() const { return times_.size(); }
   std::filesystem::path pvdPath() const { return folder_ / (name_ + ".pvd"); }
