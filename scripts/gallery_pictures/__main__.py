@@ -1,16 +1,30 @@
-"""python3 scripts/gallery_pictures PROGRAM [PICTURE…]: see scripts/gallery."""
+"""python3 scripts/gallery_pictures PROGRAM [--recipes | PICTURE…]: see scripts/gallery."""
 
 import sys
 from pathlib import Path
 
+import curves
 import page
 import runs
 from pictures import PICTURES
+from recipes import RECIPES
 
 IMAGES = Path("docs/images")
 
 
+def draw_recipes(program):
+    for picture in RECIPES:
+        runs.run(program, picture)
+        runs.draw(program, picture, IMAGES)
+    runs.run(program, next(picture for picture in PICTURES if picture.file == "belt"))
+    for name in curves.CURVES:
+        curves.draw(name, Path("gallery-out"), IMAGES)
+    return 0
+
+
 def main(program, *names):
+    if names == ("--recipes",):
+        return draw_recipes(program)
     known = [picture.file for picture in PICTURES]
     unknown = set(names) - set(known)
     if unknown:
