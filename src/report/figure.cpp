@@ -13,7 +13,7 @@ namespace dovetail::report {
 namespace {
 
 // Sizes in units of a column 440 wide.
-constexpr double width = 440.0, left = 64.0, right = 12.0, plotHeight = 210.0, row = 18.0;
+constexpr double width = 440.0, left = 64.0, right = 18.0, plotHeight = 210.0, row = 18.0;
 constexpr int colours = 8;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 

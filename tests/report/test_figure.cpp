@@ -95,8 +95,8 @@ TEST(Svg, LongCurvesKeepTheirExtremes) {
 
 TEST(Svg, BarsAreAsLongAsTheirShare) {
   const std::string svg = svgOf({"f", "Time", {}, {"s"}, {}, {{"search", 2.0}, {"sweep", 1.0}}});
-  EXPECT_NE(svg.find("width=\"418.0\""), std::string::npos) << svg;
-  EXPECT_NE(svg.find("width=\"209.0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("width=\"412.0\""), std::string::npos) << svg;
+  EXPECT_NE(svg.find("width=\"206.0\""), std::string::npos) << svg;
   EXPECT_NE(svg.find("2 s"), std::string::npos);
 }
 
