@@ -113,6 +113,11 @@ TEST(Restart, UnplannedCheckpointsChangeNothing) {
   EXPECT_EQ(rowsOf(broken), rowsOf(whole));
 }
 
+/// A driven clump and bonded ones.
+const Case stirring{[](const ScratchFolder& folder) { return words(folder, "stirrer.json", {"time=0.06"}, "0.02"); },
+                    "series.csv", "\n0.03"};
+TEST(Restart, ADrivenClumpGoesOnToTheSameBytes) { expectSameAfter(stirring, SIGKILL, -1); }
+
 /// Ended while all is brought to rest, by a checkpoint's first bytes.
 const Case relaxing{[](const ScratchFolder& folder) {
                       return words(

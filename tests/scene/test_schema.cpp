@@ -54,7 +54,7 @@ Json starter(const std::string& name) {
 TEST(SceneSchema, StarterScenesFit) {
   const Json schema = Json::parse(schemaText());
   for (const char* name : {"bonded-beam", "cantilever", "chute", "column", "digging", "drum", "hopper", "shaft",
-                           "static-cantilever", "tray", "two-materials", "wave"})
+                           "static-cantilever", "stirrer", "tray", "two-materials", "wave"})
     EXPECT_TRUE(fits(schema, starter(name))) << name;
   for (const char* name : {"footing", "pile", "plate"}) {
     Json scene = starter(name);

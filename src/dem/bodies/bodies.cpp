@@ -63,6 +63,7 @@ int addBody(Bodies& bodies, const MassProperties& properties, const Vec3& x, con
   bodies.mass.push_back(properties.mass);
   bodies.inertia.push_back(properties.inertia);
   bodies.orientation.push_back(normalized(normalized(turn) * properties.axes));
+  bodies.turnedFrom.push_back(bodies.orientation.back());
   bodies.angularMomentum.emplace_back();
   bodies.torque.emplace_back();
   setAngularVelocity(bodies, number, omega);
@@ -81,6 +82,7 @@ void validate(const Bodies& bodies) {
   checkLength(bodies.mass.size(), "mass");
   checkLength(bodies.inertia.size(), "inertia");
   checkLength(bodies.orientation.size(), "orientation");
+  checkLength(bodies.turnedFrom.size(), "orientation before the last drift");
   checkLength(bodies.angularMomentum.size(), "angular momentum");
   checkLength(bodies.torque.size(), "torque");
   for (std::size_t b = 0; b < n; ++b) {
@@ -141,7 +143,7 @@ void driftBodies(Bodies& bodies, double dt) {
   parallelFor(bodies.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       bodies.x[b] += dt * bodies.v[b];
-      Quaternion q = bodies.orientation[b];
+      Quaternion q = bodies.turnedFrom[b] = bodies.orientation[b];
       const Vec3 &l = bodies.angularMomentum[b], &inertia = bodies.inertia[b];
       for (const int k : {0, 1}) q = turnAbout(k, 0.5 * dt, q, l, inertia);
       q = turnAbout(2, dt, q, l, inertia);
@@ -202,6 +204,7 @@ void renumber(Bodies& bodies, std::span<const int> newNumber) {
   compact(bodies.mass);
   compact(bodies.inertia);
   compact(bodies.orientation);
+  compact(bodies.turnedFrom);
   compact(bodies.angularMomentum);
   compact(bodies.torque);
 }

@@ -53,15 +53,24 @@ void BodyTerm::check(const Model& m) const {
 }
 
 double BodyTerm::move(Model& m, const Step& step) {
-  if (step.closing > 0.0) kickBodies(bodies, 0.5 * step.closing);
+  if (step.closing > 0.0) {
+    kickBodies(bodies, 0.5 * step.closing);
+    prescribe(m, m.step, Half::second);
+  }
   kickBodies(bodies, 0.5 * step.dt);
+  prescribe(m, step, Half::first);
   driftBodies(bodies, step.dt);
+  for (const DriveTerm* drive : std::as_const(m.terms).all<DriveTerm>()) drive->turnBodies(m, *this, step);
   clearForces(bodies);
   applyGravity(bodies, m.gravity);  // all that is known of the forces to come
   placeCarriedWalls(m, bodies, step.time);
   const double moved = placeMembers(bodies, clumps, m.pairs.periodicity(), m.particles);
   if (!std::isfinite(moved)) requireFinite(bodies, when(m));
   return moved;
+}
+
+void BodyTerm::prescribe(Model& m, const Step& step, Half half) {
+  for (DriveTerm* drive : m.terms.all<DriveTerm>()) drive->prescribeBodies(m, *this, step, half);
 }
 
 void BodyTerm::neighbourListUpdated(Model& m) {
@@ -92,13 +101,15 @@ double BodyTerm::renumber(std::span<const int> newNumber, const Particles&) {
   return 0.0;
 }
 
-void BodyTerm::addForces(Model& m, const Step& step) {
+void BodyTerm::addForces(Model& m, const Step&) {
   clearForces(bodies);
   gatherForces(m.particles, clumps, bodies, m.gravity);
   gatherCarriedWalls(m, bodies);
   damp(m);
+}
+
+void BodyTerm::welcome(const Step& step) {
   if (step.timeless) return;
-  // The step's last half kick is not for newcomers: it will be taken back from what they have.
   for (std::size_t b = at(std::exchange(known_, static_cast<int>(bodies.size()))); b < bodies.size(); ++b) {
     const Vec3 half = 0.5 * step.dt * bodies.f[b], turn = 0.5 * step.dt * bodies.torque[b];
     bodies.v[b] -= (1.0 / bodies.mass[b]) * half;
@@ -125,31 +136,48 @@ Momenta dampingOn(const Bodies& bodies, std::size_t b, const DampingTerm& dampin
 }
 }  // namespace
 
+/// Means of the motion of bodies before and after the kick that is due, m/s, rad/s.
+struct BodyTerm::Mean {
+  std::vector<Vec3> v, spin;
+};
+BodyTerm::Mean BodyTerm::meanOf(const Model& m, const Step& step) const {
+  Mean mean{std::vector<Vec3>(bodies.size()), std::vector<Vec3>(bodies.size())};
+  parallelFor(bodies.size(), 512, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      mean.v[b] = bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b];
+      mean.spin[b] = spinOf(bodies, b, bodies.angularMomentum[b] + 0.5 * step.dt * bodies.torque[b]);
+    }
+  });
+  for (const DriveTerm* drive : m.terms.all<DriveTerm>()) drive->meanMotionOfBodies(m, *this, step, mean.v, mean.spin);
+  return mean;
+}
+
 /// With the mean of the velocities before and after the kick that the damping forces are part of.
 void BodyTerm::book(Model& m, const Step& step) {
-  for (const DampingTerm* damping : m.terms.all<DampingTerm>())
+  const auto dampings = m.terms.all<DampingTerm>();
+  if (dampings.empty()) return;
+  const Mean mean = meanOf(m, step);
+  for (const DampingTerm* damping : dampings)
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Momenta force = dampingOn(bodies, b, *damping);
-      const Vec3 turned = spinOf(bodies, b, bodies.angularMomentum[b] + 0.5 * step.dt * bodies.torque[b]);
-      m.rate.damping -=
-          dot(force.linear, bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b]) + dot(force.angular, turned);
+      m.rate.damping -= dot(force.linear, mean.v[b]) + dot(force.angular, mean.spin[b]);
     }
 }
 
-void BodyTerm::meanMotion(const Model&, const Step& step, std::span<Vec3> v, std::span<Vec3> omega) const {
+void BodyTerm::meanMotion(const Model& m, const Step& step, std::span<Vec3> v, std::span<Vec3> omega) const {
+  const Mean mean = meanOf(m, step);
   parallelFor(clumps.size(), 512, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t b = at(clumps.body[k]), i = at(clumps.particle[k]);
-      const Vec3 spin = spinOf(bodies, b, bodies.angularMomentum[b] + 0.5 * step.dt * bodies.torque[b]);
-      v[i] = bodies.v[b] + (0.5 * step.dt / bodies.mass[b]) * bodies.f[b] +
-             cross(spin, rotate(bodies.orientation[b], clumps.offset[k]));
-      if (!omega.empty()) omega[i] = spin;
+      v[i] = mean.v[b] + cross(mean.spin[b], rotate(bodies.orientation[b], clumps.offset[k]));
+      if (!omega.empty()) omega[i] = mean.spin[b];
     }
   });
 }
 
 void BodyTerm::close(Model& m, double dt) {
   kickBodies(bodies, 0.5 * dt);
+  prescribe(m, m.step, Half::second);
   placeMembers(bodies, clumps, m.pairs.periodicity(), m.particles);
   placeCarriedWalls(m, bodies, m.time);
 }
@@ -207,6 +235,7 @@ void BodyTerm::save(ByteWriter& writer) const {
 }
 void BodyTerm::load(ByteReader& reader) {
   archive(reader, bodies, clumps);
+  bodies.turnedFrom = bodies.orientation;
   reader(beside_, known_);
 }
 

@@ -186,10 +186,15 @@ void requireShorter(const Particles& particles, const Clumps& clumps, const geom
   }
 }
 
+std::vector<int> bodyOfParticles(std::size_t particles, const Clumps& clumps) {
+  std::vector<int> bodyOf(particles, -1);
+  for (std::size_t m = 0; m < clumps.size(); ++m) bodyOf[at(clumps.particle[m])] = clumps.body[m];
+  return bodyOf;
+}
+
 void muteMemberPairs(const Clumps& clumps, PairList& list) {
   if (clumps.size() == 0) return;
-  std::vector<int> bodyOf(list.particles(), -1);
-  for (std::size_t m = 0; m < clumps.size(); ++m) bodyOf[at(clumps.particle[m])] = clumps.body[m];
+  const std::vector<int> bodyOf = bodyOfParticles(list.particles(), clumps);
   const std::span<double> factors = list.writeFactors();
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto& [i, j] = list.pairs()[p];

@@ -19,8 +19,43 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // ---- bonds
 
 void BondTerm::check(const Model& m) const {
-  if (bonds.size() > 0) dem::check(bonds, m.particles);
+  if (bonds.size() == 0) return;
+  dem::check(bonds, m.particles);
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) {
+    const std::vector<int> body = bodyOfParticles(m.particles.size(), term->clumps);
+    for (std::size_t b = 0; b < bonds.size(); ++b)
+      if (const int i = body[at(bonds.bonds[b].i)]; i >= 0 && i == body[at(bonds.bonds[b].j)])
+        throw InputError("its ends are members of one clump", "bond " + std::to_string(b),
+                         "bond members of different clumps");
+  }
 }
+
+namespace {
+/// Members of bodies spin at the mean of the step while this lives, so that ends of bonds turn exactly as the bodies
+/// did: by Cayley's rotation of the mean spin ω over dt, tan(θ/2) = ω dt/2.
+class MembersTurn {
+public:
+  MembersTurn(Model& m, double dt) : m_(m) {
+    if (!(dt > 0.0) || !m.particles.rotates()) return;
+    for (const BodyTerm* term : m.terms.all<BodyTerm>())
+      for (std::size_t k = 0; k < term->clumps.size(); ++k) {
+        const std::size_t b = at(term->clumps.body[k]), i = at(term->clumps.particle[k]);
+        if (kept_.empty()) kept_ = m.particles.omega;
+        const Quaternion turn = term->bodies.orientation[b] * conjugate(term->bodies.turnedFrom[b]);
+        m.particles.omega[i] = (2.0 / (dt * turn.w)) * Vec3{turn.x, turn.y, turn.z};
+      }
+  }
+  ~MembersTurn() {
+    if (!kept_.empty()) m_.particles.omega.swap(kept_);
+  }
+  MembersTurn(const MembersTurn&) = delete;
+  MembersTurn& operator=(const MembersTurn&) = delete;
+
+private:
+  Model& m_;
+  std::vector<Vec3> kept_;
+};
+}  // namespace
 
 void BondTerm::neighbourListUpdated(Model& m) {
   if (mutesContacts) muteBonded(bonds, m.pairs);
@@ -31,7 +66,11 @@ double BondTerm::renumber(std::span<const int> newNumber, const Particles&) { re
 void BondTerm::addForces(Model& m, const Step& step) {
   lost_ = 0.0;
   if (bonds.size() == 0) return;
-  ContactWork work = exchangeBonds(m.particles, bonds, m.pairs.periodicity(), step.timeless ? 0.0 : step.dt);
+  const double dt = step.timeless ? 0.0 : step.dt;
+  ContactWork work = [&] {
+    const MembersTurn turned(m, dt);
+    return exchangeBonds(m.particles, bonds, m.pairs.periodicity(), dt);
+  }();
   // The last force of a bond that breaks is that of the step before, which acted half of the way: there it broke.
   work.fracturePower += 0.5 * bonds.powerOfBroken;
   lost_ = work.dissipatedPower;
@@ -83,6 +122,7 @@ void BondTerm::wake(Model& m, const Step& step) {
 void BondTerm::book(Model& m, const Step& step) {
   if (lost_ == 0.0 || m.booking == Booking::off) return;
   const MeanMotion mean = dem::meanMotion(m, step);
+  const MembersTurn turned(m, step.timeless ? 0.0 : step.dt);
   m.rate.lost.dissipatedPower += dashpotPower(m.particles, bonds, m.pairs.periodicity(), mean.v, mean.omega) - lost_;
 }
 

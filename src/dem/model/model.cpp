@@ -117,6 +117,7 @@ double storedBy(const Model& m, std::span<const int> particles) {
 
 /// The step's last half kick is not for those who came in at its end: it will be taken back from what they have.
 void welcome(Model& m) {
+  for (BodyTerm* term : m.terms.all<BodyTerm>()) term->welcome(m.step);
   std::vector<int> newcomers;
   for (const std::int64_t id : m.newcomers) {
     const int number = find(m.particles, id);

@@ -9,6 +9,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/setup/pressure_secant.hpp"
 #include "relaxation.hpp"
+#include "room_surface.hpp"
 
 namespace dovetail::dem {
 
@@ -37,6 +38,11 @@ void checkFit(double diameter, const geometry::Periodicity& space) {
                    "make the box larger (along a periodic axis, two diameters), or the spheres smaller");
 }
 
+std::vector<double> drawRadii(const Sizes& sizes, std::int64_t number, RandomStream& random) {
+  std::vector<double> radius;
+  for (std::int64_t k = 0; k < number; ++k) radius.push_back(drawRadius(sizes, random));
+  return radius;
+}
 std::vector<double> drawRadii(const Sizes& sizes, double volume, RandomStream& random) {
   std::vector<double> radius;
   double filled = 0.0;
@@ -68,6 +74,8 @@ void check(const GrowthOptions& settings) {
   if (!(settings.solidFraction > 0.0 && settings.solidFraction < 0.74))
     throw InputError("the solid fraction is " + formatNumber(settings.solidFraction), "packing",
                      "give one above 0 and below 0.74");
+  if (settings.number < 0)
+    throw InputError("the number of spheres is " + std::to_string(settings.number), "packing", "give 0 or more");
   if (!(settings.overlap > 0.0 && settings.overlap <= 0.1))
     throw InputError("the overlap is " + formatNumber(settings.overlap), "packing", "give one in (0, 0.1]");
 }
@@ -76,12 +84,13 @@ void check(const GrowthOptions& settings) {
 /// the last good state by a smaller bit. Returns the fraction of the radii reached.
 double grow(Packing& packing, const std::vector<double>& wanted, const GrowthOptions& settings,
             std::int64_t& iterations) {
+  const double solidFraction = settings.number > 0 ? volumeOf(wanted) / packing.volume() : settings.solidFraction;
   constexpr std::int64_t patience = 4000;
   const auto setScale = [&](double scale) {
     packing.radius = wanted;
     for (double& r : packing.radius) r *= scale;
   };
-  double scale = std::cbrt(std::min(1.0, 0.2 / settings.solidFraction)), goodScale = 0.0;
+  double scale = std::cbrt(std::min(1.0, 0.2 / solidFraction)), goodScale = 0.0;
   std::vector<Vec3> good = packing.centre;
   setScale(scale);
   Relaxation relaxation(packing);
@@ -107,6 +116,33 @@ double grow(Packing& packing, const std::vector<double>& wanted, const GrowthOpt
 
 }  // namespace
 
+namespace {
+
+bool isInside(const PackingRoom& room, const RoomSurface& surface, const Vec3& x) {
+  return std::ranges::all_of(room.walls, [&](const PrimitiveWall& one) { return distanceTo(one, x).distance > 0.0; }) &&
+         (surface.isEmpty() || surface.isInside(x));
+}
+
+/// Points at random.
+void placeIn(Packing& packing, std::size_t count, RandomStream& random) {
+  const RoomSurface surface(packing.room.surface);
+  const double box = packing.space.length(0) * packing.space.length(1) * packing.space.length(2);
+  const double most = 100.0 * (1.0 + static_cast<double>(count)) * box / packing.volume();
+  for (double tries = 0.0; packing.centre.size() < count; ++tries) {
+    if (tries > most)
+      throw InputError("no place is found inside the surface", "packing", "check that its normals point outwards");
+    const Vec3 x = random.point(packing.space.box.lower, packing.space.box.upper);
+    if (isInside(packing.room, surface, x)) packing.centre.push_back(x);
+  }
+}
+
+bool areInside(const Packing& packing) {
+  const RoomSurface surface(packing.room.surface);
+  return std::ranges::all_of(packing.centre, [&](const Vec3& x) { return isInside(packing.room, surface, x); });
+}
+
+}  // namespace
+
 double volumeOf(std::span<const double> radius) {
   double sum = 0.0;
   for (const double r : radius) sum += sphereVolume(r);
@@ -128,16 +164,17 @@ Packing growPacking(const Sizes& sizes, const geometry::Periodicity& space, cons
   checkSpace(space);
   check(settings);
   RandomStream random(settings.seed);
-  Packing packing{{}, {}, space};
-  const std::vector<double> wanted = drawRadii(sizes, settings.solidFraction * packing.volume(), random);
+  Packing packing{{}, {}, space, settings.room};
+  const std::vector<double> wanted = settings.number > 0
+                                         ? drawRadii(sizes, settings.number, random)
+                                         : drawRadii(sizes, settings.solidFraction * packing.volume(), random);
   checkFit(2.0 * *std::max_element(wanted.begin(), wanted.end()), space);
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    packing.centre.push_back(random.point(space.box.lower, space.box.upper));
+  placeIn(packing, wanted.size(), random);
   report = {};
   report.scale = grow(packing, wanted, settings, report.iterations);
   wrap(packing);
   fillReport(packing, report);
-  report.reached = report.scale == 1.0 && report.largestOverlap <= settings.overlap;
+  report.reached = report.scale == 1.0 && report.largestOverlap <= settings.overlap && areInside(packing);
   return packing;
 }
 

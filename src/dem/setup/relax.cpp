@@ -27,9 +27,10 @@ double squaredRadius(const Bodies& bodies, std::size_t b) {
   return 2.5 * (inertia.x + inertia.y + inertia.z) / (3.0 * bodies.mass[b]);
 }
 
-FireSums fireSums(const Bodies& bodies) {
+FireSums fireSums(const Bodies& bodies, const std::vector<char>& driven) {
   FireSums sums;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (driven[b] != 0) continue;
     const Vec3 omega = angularVelocity(bodies, static_cast<int>(b)), &f = bodies.f[b], &torque = bodies.torque[b];
     const double r2 = squaredRadius(bodies, b);
     sums += {dot(f, bodies.v[b]) + dot(torque, omega), squaredNorm(bodies.v[b]) + r2 * squaredNorm(omega),
@@ -50,7 +51,9 @@ void steer(Model& m, BodyTerm& term, const FireMix& mix, double dt) {
     least[b] = extent[b] > 0.0 ? std::min(least[b], radius) : radius;
     extent[b] = std::max(extent[b], norm(term.clumps.offset[k]) + radius);
   }
+  const std::vector<char> driven = drivenBodies(m, term);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (driven[b] != 0) continue;
     const Vec3 &inertia = bodies.inertia[b], kick = (0.5 * dt / bodies.mass[b]) * bodies.f[b],
                twist = 0.5 * dt * bodies.torque[b];
     bodies.v[b] = mix.keep * bodies.v[b] + mix.lean * bodies.f[b];
@@ -90,7 +93,7 @@ FireSums fireSums(const Model& m) {
     const double force = servo->unbalanced();
     sums += {force * servo->speed, servo->speed * servo->speed, force * force};
   }
-  for (const BodyTerm* term : m.terms.all<BodyTerm>()) sums += fireSums(term->bodies);
+  for (const BodyTerm* term : m.terms.all<BodyTerm>()) sums += fireSums(term->bodies, drivenBodies(m, *term));
   return sums;
 }
 
@@ -202,8 +205,10 @@ RelaxationReport restOf(const Model& m) {
     for (std::size_t k = 0; k < term->clumps.size(); ++k)
       if (touches[static_cast<std::size_t>(term->clumps.particle[k])] != 0)
         touched[static_cast<std::size_t>(term->clumps.body[k])] = 1;
+    const std::vector<char> driven = drivenBodies(m, *term);
     for (std::size_t b = 0; b < bodies.size(); ++b)
-      count(norm(bodies.f[b]) + norm(bodies.torque[b]) / std::sqrt(squaredRadius(bodies, b)), touched[b] != 0);
+      if (driven[b] == 0)
+        count(norm(bodies.f[b]) + norm(bodies.torque[b]) / std::sqrt(squaredRadius(bodies, b)), touched[b] != 0);
   }
   const auto held = static_cast<double>(counted - report.rattlers);
   if (residual > 0.0)

@@ -52,7 +52,9 @@ double meanRadius(const Packing& packing) {
 }
 
 Relaxation::Relaxation(Packing& packing)
-    : packing_(packing), laws_(makeContactLaws(ContactLaw<LinearSpringDashpot>{{.stiffness = 1.0}})) {
+    : packing_(packing),
+      surface_(packing.room.surface),
+      laws_(makeContactLaws(ContactLaw<LinearSpringDashpot>{{.stiffness = 1.0}})) {
   for (std::size_t i = 0; i < packing.centre.size(); ++i)
     addParticle(particles_, packing.centre[i], {}, packing.radius[i], Mass{1.0});
   PairList none;
@@ -78,7 +80,8 @@ void Relaxation::take() {
 }
 
 void Relaxation::makeWalls() {
-  walls_.clear();
+  walls_ = packing_.room.walls;
+  if (packing_.room.volume > 0.0) return;
   for (int k = 0; k < 3; ++k) {
     if (packing_.space.axes[static_cast<std::size_t>(k)]) continue;
     Vec3 inwards;
@@ -96,6 +99,17 @@ void Relaxation::findForces(double moved) {
     findContacts(particles_, wall, {moved, Moves::unknown, list_.travel(), list_.builds()}, list_.periodicity());
     laws_->wall(particles_, wall, 0.0, Booking::off);
   }
+  if (!surface_.isEmpty()) pushFromSurface();
+}
+
+/// As walls do, by springs of 1 N/m.
+void Relaxation::pushFromSurface() {
+  Particles& p = particles_;
+  parallelFor(p.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      surface_.forEachNear(p.x[i], p.radius[i],
+                           [&](double distance, const Vec3& inwards) { p.f[i] += (p.radius[i] - distance) * inwards; });
+  });
 }
 
 Overlaps Relaxation::measure(double gap) const {
@@ -115,9 +129,13 @@ Overlaps Relaxation::measure(double gap) const {
   });
   for (const PrimitiveWall& wall : walls_)
     for (std::size_t i = 0; i < p.size(); ++i) {
-      const double height = dot(p.x[i] - wall.point, wall.axis);
+      const double height = distanceTo(wall, p.x[i]).distance;
       addContact(found, p.radius[i] - height, p.radius[i], height, gap, 1);
     }
+  for (std::size_t i = 0; !surface_.isEmpty() && i < p.size(); ++i)
+    surface_.forEachNear(p.x[i], (1.0 + gap) * p.radius[i], [&](double distance, const Vec3&) {
+      addContact(found, p.radius[i] - distance, p.radius[i], distance, gap, 1);
+    });
   return found;
 }
 

@@ -9,6 +9,7 @@
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/dem/walls/primitive_wall.hpp"
+#include "room_surface.hpp"
 
 namespace dovetail::dem {
 
@@ -41,12 +42,14 @@ public:
 
 private:
   void makeWalls();
+  void pushFromSurface();
   void findForces(double moved);
 
   Packing& packing_;
   Particles particles_;  // sorted in space: Particles::id is the sphere's number
   PairList list_;
   std::vector<PrimitiveWall> walls_;
+  RoomSurface surface_;
   std::shared_ptr<const ContactLaws> laws_;
 };
 

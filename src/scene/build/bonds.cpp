@@ -3,13 +3,17 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 
+#include "dovetail/core/finite.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "keys/advice.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
+#include "wall_motion.hpp"
 #include "warnings/warnings.hpp"
 
 namespace dovetail::scene {
@@ -20,8 +24,8 @@ const std::vector<std::int64_t>& groupNamed(const Groups& groups, const std::str
   if (const auto found = groups.find(name); found != groups.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& [known, ids] : groups) names.push_back(known);
-  throw InputError("there is no group of particles \"" + name + "\"", "",
-                   names.empty() ? "give the group in particles this name" : adviceFor(name, names));
+  throw InputError("there is no group of particles or clumps \"" + name + "\"", "",
+                   names.empty() ? "give the group in particles, or the clumps, this name" : adviceFor(name, names));
 }
 
 /// Marks of the particles of a group, by number.
@@ -29,6 +33,12 @@ std::vector<char> membersOf(const dem::Particles& particles, const Groups& group
   std::vector<char> member(particles.size(), 0);
   for (const std::int64_t id : groupNamed(groups, name)) member[static_cast<std::size_t>(find(particles, id))] = 1;
   return member;
+}
+
+/// Body of every particle, −1 of those that are no members.
+std::vector<int> bodiesIn(const dem::Model& grains) {
+  const auto terms = grains.terms.all<dem::BodyTerm>();
+  return dem::bodyOfParticles(grains.particles.size(), terms.empty() ? dem::Clumps{} : terms.front()->clumps);
 }
 
 dem::BondMaterial materialOf(const BondGroup& group) {
@@ -51,13 +61,16 @@ void add(dem::Model& grains, const BondGroup& group, const Groups& groups, std::
   for (const double radius : grains.particles.radius) largest = std::max(largest, radius);
   near.setSkin(group.gap + 1e-9 * largest);
   dem::findPairs(grains.particles, near);
+  const std::vector<int> body = bodiesIn(grains);
   const int count =
       dem::bondTouching(dem::bonds(grains), grains.particles, near, group.gap, materialOf(group), [&](int i, int j) {
         const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+        if (body[a] >= 0 && body[a] == body[b]) return false;
         return (one[a] && other[b]) || (one[b] && other[a]);
       });
   if (count == 0)
-    throw InputError("no two unbonded grains are within the gap", "", "give a larger gap, or put them closer");
+    throw InputError("no two unbonded grains of different clumps are within the gap", "",
+                     "give a larger gap, or put them closer");
   notes.push_back(std::to_string(count) + " bonds in \"" + group.group + "\"" +
                   (group.with.empty() ? "." : " with \"" + group.with + "\"."));
 }
@@ -71,6 +84,65 @@ std::function<Vec3(double)> spinOf(const Drive& drive, const Scene& scene) {
     const double from = std::max(0.0, t);
     return Vec3{parts[0](from), parts[1](from), parts[2](from)};
   };
+}
+
+bool turns(const Drive& drive) { return drive.turn || norm(drive.angularVelocity) > 0.0; }
+
+/// Mean place of grains and clumps, m.
+Vec3 centreOf(const dem::Model& grains, const std::vector<std::int64_t>& ids) {
+  const std::vector<int> body = bodiesIn(grains);
+  std::vector<Vec3> places;
+  std::set<int> counted;
+  for (const std::int64_t id : ids) {
+    const auto i = static_cast<std::size_t>(find(grains.particles, id));
+    if (body[i] < 0)
+      places.push_back(grains.particles.x[i]);
+    else if (counted.insert(body[i]).second)
+      places.push_back(grains.terms.all<dem::BodyTerm>().front()->bodies.x[static_cast<std::size_t>(body[i])]);
+  }
+  Vec3 sum;
+  for (const Vec3& x : places) sum += grains.pairs.periodicity().minimumImage(x - places.front());
+  return places.front() + (1.0 / static_cast<double>(places.size())) * sum;
+}
+
+/// In periodic space nobody may pass the image of the axis.
+void requireNearAxis(const dem::Model& grains, const std::vector<std::int64_t>& ids, const Vec3& axis,
+                     const Vec3& point) {
+  const geometry::Periodicity& space = grains.pairs.periodicity();
+  for (int k = 0; k < 3; ++k) {
+    const double along = std::abs(axis[k]);
+    if (!space.axes[static_cast<std::size_t>(k)] || along > 1.0 - 1e-12) continue;
+    for (const std::int64_t id : ids) {
+      const Vec3 arm =
+          space.minimumImage(grains.particles.x[static_cast<std::size_t>(find(grains.particles, id))] - point);
+      const double height = dot(arm, axis), reach = std::sqrt(std::max(0.0, squaredNorm(arm) - height * height));
+      if (std::abs(height) * along + reach * std::sqrt(1.0 - along * along) < 0.5 * space.length(k)) continue;
+      throw InputError("a grain turns about an axis " + formatNumber(reach) +
+                           " m away, in a space that repeats every " + formatNumber(space.length(k)) + " m along " +
+                           "xyz"[k],
+                       "", "keep the group nearer than half a period to the axis, or let the axis be along the period");
+    }
+  }
+}
+
+dem::DriveTerm rigidDrive(const dem::Model& grains, const Drive& drive, const std::vector<std::int64_t>& ids,
+                          const Scene& scene) {
+  if (!isConstant(drive.spin) || norm(constantOf(drive.spin)) > 0.0)
+    throw InputError("both a spin and a turn are given", "",
+                     "leave one out: with a turn, grains spin with the group; with a spin, each about its own centre");
+  const Vec3 own = centreOf(grains, ids), point = drive.turn ? drive.turn->point.value_or(own) : own;
+  dem::PrescribedMotion motion = motionOf(drive, {point, {}, {}, {}}, own, 0.0, scene);
+  requireNearAxis(grains, ids, normalized(drive.turn ? drive.turn->axis : drive.angularVelocity), point);
+  return {ids, std::move(motion)};
+}
+
+dem::DriveTerm driveOf(dem::Model& grains, const Drive& drive, const std::vector<std::int64_t>& ids,
+                       const Scene& scene) {
+  if (turns(drive)) return rigidDrive(grains, drive, ids, scene);
+  Path path = pathOf(drive.velocity, drive.displacement, scene);
+  const auto spin = spinOf(drive, scene);
+  if (spin) dem::switchOnRotation(grains.particles);
+  return {ids, path.displacement, path.velocity, spin};
 }
 
 void requireAlike(const std::vector<BondGroup>& all) {
@@ -107,12 +179,7 @@ void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& gro
   }
   for (const BondGroup& group : scene.bonds) atPlace(group.where, [&] { add(grains, group, groups, notes); });
   for (const Drive& drive : scene.drives)
-    atPlace(drive.where, [&] {
-      Path path = pathOf(drive.velocity, drive.displacement, scene);
-      const auto spin = spinOf(drive, scene);
-      if (spin) dem::switchOnRotation(grains.particles);
-      grains.terms.add(dem::DriveTerm(groupNamed(groups, drive.group), path.displacement, path.velocity, spin));
-    });
+    atPlace(drive.where, [&] { grains.terms.add(driveOf(grains, drive, groupNamed(groups, drive.group), scene)); });
 }
 
 }  // namespace dovetail::scene

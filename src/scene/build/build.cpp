@@ -126,7 +126,8 @@ void requireStandstill(const Scene& scene) {
                      "\"0.1*max(0, t - 1)\"");
   };
   for (const Drive& drive : scene.drives)
-    if (goesOn(drive.velocity, constantOf(drive.spin))) refuse("a drive", drive.where);
+    if (goesOn(drive.velocity, constantOf(drive.spin)) || norm(drive.angularVelocity) > 0.0)
+      refuse("a drive", drive.where);
   for (const Solid& solid : scene.solids) {
     for (const Support& support : solid.supports)
       if (goesOn(support.velocity)) refuse("a support", support.where);
@@ -200,11 +201,12 @@ Built build(const Scene& scene) {
   if (scene.domain)
     grains.domain =
         dem::Domain{scene.domain->box, scene.domain->removes ? dem::EscapePolicy::remove : dem::EscapePolicy::refuse};
-  const Groups groups = addParticles(grains, scene, built.notes);
+  Groups groups = addParticles(grains, scene, built.notes);
   if (std::isinf(grains.laws->reach())) dem::findPairs(grains.particles, grains.pairs);  // those that hold together
+  addClumps(grains, scene, groups);
   addBondsAndDrives(grains, scene, groups, built.notes);
   addWalls(built, scene);
-  addClumpsAndStreams(grains, scene);
+  addStreams(grains, scene);
   addSolids(built, scene);
   addCouplings(built, scene);
   requireTogether(built, scene);

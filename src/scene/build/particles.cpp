@@ -53,25 +53,62 @@ void add(const Target& to, const Lattice& lattice) {
       {lattice.density}, to.group.velocity);
 }
 
+/// What is filled in place of a box; of no volume if it is a box.
+dem::PackingRoom roomOf(const Target& to, const RandomPacking& packing) {
+  if (packing.box.has_value() + packing.cylinder.has_value() + packing.surface.has_value() != 1)
+    throw InputError("a packing fills one region", "", "give one of box, cylinder and surface");
+  if (packing.cylinder)
+    return dem::cylinderRoom(packing.cylinder->point, packing.cylinder->axis, packing.cylinder->radius,
+                             packing.cylinder->length);
+  if (!packing.surface) return {};
+  const TriangleFiles& from = *packing.surface;
+  return dem::roomInside(surfaceOf(from, geometry::ClosedPatches::turn, to.notes));
+}
+
+/// So many would fit if the packing is as dense as it was when it jammed.
+[[noreturn]] void refuseJammed(const RandomPacking& packing, const dem::PackingReport& report, double fraction) {
+  if (packing.number > 0) {
+    const double fit = std::floor(static_cast<double>(packing.number) * report.solidFraction / fraction);
+    throw InputError(
+        "the region holds about " + formatNumber(fit) + " such spheres, not " + std::to_string(packing.number), "",
+        "give a smaller number, smaller spheres or a larger region");
+  }
+  throw InputError("the packing jams at the solid fraction " + formatNumber(report.solidFraction), "",
+                   "give a solid_fraction below that");
+}
+
 void add(const Target& to, const RandomPacking& packing) {
   const dem::Sizes sizes = sizesOf(packing.radius);
   dem::validate(sizes);
-  requireMemoryIn(packing.box, std::cbrt(dem::meanVolume(sizes) / packing.solidFraction));
+  if (packing.number > 0 && packing.solidFraction)
+    throw InputError("both a number and a solid_fraction are given", "", "leave one of them out");
+  const dem::PackingRoom room = roomOf(to, packing);
+  const geometry::Periodicity space =
+      packing.box ? spaceOf(*packing.box, to.scene) : geometry::Periodicity{room.box, {}};
+  const double volume = room.volume > 0.0 ? room.volume : space.length(0) * space.length(1) * space.length(2);
+  const double wanted = packing.number > 0 ? static_cast<double>(packing.number) * dem::meanVolume(sizes) / volume
+                                           : packing.solidFraction.value_or(0.55);
+  if (!(wanted < 0.74))
+    throw InputError(std::to_string(packing.number) + " spheres would fill " + rounded(wanted) + " of the region", "",
+                     "about " + formatNumber(std::floor(0.6 * volume / dem::meanVolume(sizes))) +
+                         " fit: give a smaller number, smaller spheres or a larger region");
+  requireMemory(volume * wanted / dem::meanVolume(sizes), "spheres", BytesPer::grain,
+                "take larger ones, or a smaller box");
   dem::PackingReport report;
-  const dem::Packing spheres = dem::growPacking(sizes, spaceOf(packing.box, to.scene),
-                                                {.solidFraction = packing.solidFraction,
+  const dem::Packing spheres = dem::growPacking(sizes, space,
+                                                {.solidFraction = wanted,
+                                                 .number = packing.number,
+                                                 .room = room,
                                                  .overlap = packing.overlap,
                                                  .seed = static_cast<std::uint64_t>(packing.seed)},
                                                 report);
-  if (!report.reached)
-    throw InputError("the packing jams at the solid fraction " + formatNumber(report.solidFraction), "",
-                     "give a solid_fraction below that");
+  if (!report.reached) refuseJammed(packing, report, wanted);
   to.notes.push_back("Random packing of " + std::to_string(spheres.centre.size()) + " spheres: solid fraction " +
                      formatNumber(report.solidFraction) + ", largest overlap " + formatNumber(report.largestOverlap) +
                      " radii.");
-  if (report.solidFraction < 0.8 * packing.solidFraction)
+  if (packing.number == 0 && report.solidFraction < 0.8 * wanted)
     to.notes.push_back("WARNING: The box of the packing holds spheres for a solid fraction of " +
-                       rounded(report.solidFraction) + ", not of " + formatNumber(packing.solidFraction) +
+                       rounded(report.solidFraction) + ", not of " + formatNumber(wanted) +
                        ": give it smaller grains, or a larger box.");
   dem::addPacking(to.grains.particles, spheres, {packing.density}, to.group.velocity);
 }

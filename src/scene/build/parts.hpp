@@ -10,6 +10,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/scene/build.hpp"
 
 namespace dovetail::fem {
@@ -53,7 +54,7 @@ Impact briefestImpact(const Scene& scene, const dem::Particles& particles);
 /// Of the softest law of a material, N/m, pressed together likewise.
 double softestSpring(const Scene& scene, int row, double radius);
 
-/// Particles of groups that have a name, by Particles::id.
+/// Particles of groups that have a name, members of clumps among them, by Particles::id.
 using Groups = std::map<std::string, std::vector<std::int64_t>>;
 
 Groups addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);
@@ -63,7 +64,9 @@ double largestRadius(const Scene& scene, const dem::Particles& particles);
 void addWalls(Built& built, const Scene& scene);
 /// Number of an item of `walls` by its name or number. @throws InputError if there is none
 std::size_t wallNamed(const std::string& name, const Scene& scene);
-void addClumpsAndStreams(dem::Model& grains, const Scene& scene);
+/// Clumps of one name are one group.
+void addClumps(dem::Model& grains, const Scene& scene, Groups& groups);
+void addStreams(dem::Model& grains, const Scene& scene);
 void addSolids(Built& built, const Scene& scene);
 void addCouplings(Built& built, const Scene& scene);
 /// @throws InputError telling the worst grain, if there are grains on the wrong side of a wall or outside of the
@@ -114,6 +117,9 @@ struct SurfaceOfFile {
 /// @param tolerance  of vertices that become one, in the unit of the files
 geometry::TriangleMesh repairedSurface(const std::vector<std::string>& files, double tolerance,
                                        geometry::ClosedPatches closed, std::vector<std::string>& notes);
+/// The same of the files of a structure, scaled and shifted.
+geometry::TriangleMesh surfaceOf(const TriangleFiles& from, geometry::ClosedPatches closed,
+                                 std::vector<std::string>& notes);
 
 // Files of kinds that depend on the build.
 SurfaceOfFile readTriangles(const std::string& file);

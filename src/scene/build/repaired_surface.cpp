@@ -47,4 +47,13 @@ geometry::TriangleMesh repairedSurface(const std::vector<std::string>& files, do
   return all;
 }
 
+geometry::TriangleMesh surfaceOf(const TriangleFiles& from, geometry::ClosedPatches closed,
+                                 std::vector<std::string>& notes) {
+  std::vector<std::string> files{from.file};
+  files.insert(files.end(), from.more.begin(), from.more.end());
+  geometry::TriangleMesh mesh = repairedSurface(files, from.tolerance / from.scale, closed, notes);
+  for (Vec3& x : mesh.x) x = from.scale * x + from.shift;
+  return mesh;
+}
+
 }  // namespace dovetail::scene

@@ -10,7 +10,8 @@ namespace dovetail::scene {
 
 namespace {
 
-void add(dem::Model& grains, const Clump& clump, const Scene& scene) {
+/// @return the ids of its members
+std::vector<std::int64_t> add(dem::Model& grains, const Clump& clump, const Scene& scene) {
   std::vector<Vec3> centres;
   std::vector<double> radii;
   for (const Sphere& sphere : clump.spheres) {
@@ -20,6 +21,7 @@ void add(dem::Model& grains, const Clump& clump, const Scene& scene) {
   const std::size_t first = grains.particles.size();
   dem::addClump(grains, dem::makeClumpShape(centres, radii, {clump.density}), clump.at, {}, clump.velocity, clump.spin);
   setContactMaterial(grains.particles, first, contactRow(scene, clump.contactMaterial));
+  return {grains.particles.id.begin() + static_cast<std::ptrdiff_t>(first), grains.particles.id.end()};
 }
 
 void requireOneOfEach(const Insertion& insertion) {
@@ -58,8 +60,20 @@ void add(dem::Model& grains, const Insertion& insertion, const Scene& scene) {
 
 }  // namespace
 
-void addClumpsAndStreams(dem::Model& grains, const Scene& scene) {
-  for (const Clump& clump : scene.clumps) atPlace(clump.where, [&] { add(grains, clump, scene); });
+void addClumps(dem::Model& grains, const Scene& scene, Groups& groups) {
+  const Groups ofParticles = groups;
+  for (const Clump& clump : scene.clumps)
+    atPlace(clump.where, [&] {
+      if (!clump.name.empty() && ofParticles.contains(clump.name))
+        throw InputError("there is a group of particles \"" + clump.name + "\"", "", "give the clump another name");
+      const std::vector<std::int64_t> members = add(grains, clump, scene);
+      if (clump.name.empty()) return;
+      std::vector<std::int64_t>& group = groups[clump.name];
+      group.insert(group.end(), members.begin(), members.end());
+    });
+}
+
+void addStreams(dem::Model& grains, const Scene& scene) {
   for (const Insertion& insertion : scene.insertions) atPlace(insertion.where, [&] { add(grains, insertion, scene); });
   for (const Outlet& outlet : scene.outlets) atPlace(outlet.where, [&] { dem::addOutlet(grains, outlet.region); });
 }

@@ -6,6 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/walls/wall_checks.hpp"
 #include "time_functions.hpp"
 
@@ -54,21 +55,31 @@ const dem::WallServo* servoIn(const dem::Model& grains, const WallParts& parts) 
 
 // ---- servos
 
-double massOfGrains(const dem::Particles& p, const char* key) {
+/// Calls act(mass, place) for every single grain and every clump.
+template <class Act>
+void forEachGrain(const dem::Model& grains, const Act& act) {
+  const dem::Particles& p = grains.particles;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!p.isMember(i)) act(p.mass[i], p.x[i]);
+  for (const auto* term : grains.terms.all<dem::BodyTerm>())
+    for (std::size_t b = 0; b < term->bodies.size(); ++b) act(term->bodies.mass[b], term->bodies.x[b]);
+}
+
+double massOfGrains(const dem::Model& grains, const char* key) {
   double mass = 0.0;
-  for (const double m : p.mass) mass += m;
+  forEachGrain(grains, [&](double m, const Vec3&) { mass += m; });
   if (!(mass > 0.0))
     throw InputError("there are no grains at the start, whose mass the servo could take", "",
                      std::string("give it a ") + key);
   return mass;
 }
-double inertiaOfGrains(const dem::Particles& p, const dem::WallServo& servo) {
-  massOfGrains(p, "moment_of_inertia");
+double inertiaOfGrains(const dem::Model& grains, const dem::WallServo& servo) {
+  massOfGrains(grains, "moment_of_inertia");
   double inertia = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const double lever = servo.leverOf(p.x[i]);
-    inertia += p.mass[i] * lever * lever;
-  }
+  forEachGrain(grains, [&](double m, const Vec3& x) {
+    const double lever = servo.leverOf(x);
+    inertia += m * lever * lever;
+  });
   if (!(inertia > 0.0)) throw InputError("all grains lie on the axis of the servo", "", "give it a moment_of_inertia");
   return inertia;
 }
@@ -93,7 +104,7 @@ const PushedWall* pushedIn(const Servo& servo) {
   return std::get_if<KeptPressure>(&servo.keeps);
 }
 
-dem::WallServo servoOf(const Servo& servo, const dem::Particles& p, const Vec3& point, const dem::WallServo* before) {
+dem::WallServo servoOf(const Servo& servo, const dem::Model& grains, const Vec3& point, const dem::WallServo* before) {
   constexpr double none = std::numeric_limits<double>::infinity();
   if (norm(servo.axis) == 0.0)
     throw InputError("the axis of the servo has no length", "", "give it a direction, such as [0, 0, -1]");
@@ -103,11 +114,13 @@ dem::WallServo servoOf(const Servo& servo, const dem::Particles& p, const Vec3& 
   if (const auto* const torque = std::get_if<KeptTorque>(&servo.keeps)) {
     made.turns = true;
     made.point = torque->point.value_or(point);
-    made.mass = torque->momentOfInertia ? *torque->momentOfInertia : before ? before->mass : inertiaOfGrains(p, made);
+    made.mass = torque->momentOfInertia ? *torque->momentOfInertia
+                : before                ? before->mass
+                                        : inertiaOfGrains(grains, made);
     made.fastest = torque->speedLimit.value_or(none);
   } else {
     const PushedWall& pushed = *pushedIn(servo);
-    made.mass = pushed.mass ? *pushed.mass : before ? before->mass : massOfGrains(p, "mass");
+    made.mass = pushed.mass ? *pushed.mass : before ? before->mass : massOfGrains(grains, "mass");
     made.fastest = pushed.speedLimit.value_or(none);
   }
   return made;
@@ -147,7 +160,7 @@ void setServo(dem::Model& grains, WallParts& parts, const WallMotion& motion, co
   requireServoAlone(parts, motion);
   dem::WallServo* const before = servoIn(grains, parts);
   const RigidMotion now = placeOf(parts, grains, grains.time);
-  dem::WallServo made = servoOf(*motion.servo, grains.particles, now.x, before);
+  dem::WallServo made = servoOf(*motion.servo, grains, now.x, before);
   if (made.turns) requireRepeatsTurned(grains, parts, made.direction);
   const bool goesOn = before && isSameAxis(*before, made);
   if (goesOn) {
@@ -217,7 +230,12 @@ void setPath(const MovedModel& model, WallParts& parts, const WallMotion& motion
 
 }  // namespace
 
-dem::PrescribedMotion motionOf(const WallMotion& motion, const WallParts& parts, const Scene& scene) {
+dem::PrescribedMotion motionOf(const RigidPath& motion, const WallParts& parts, const Scene& scene) {
+  return motionOf(motion, parts.base, parts.base.x + rotate(parts.base.turn, parts.centre), parts.since, scene);
+}
+
+dem::PrescribedMotion motionOf(const RigidPath& motion, const dem::RigidMotion& base, const Vec3& own, double since,
+                               const Scene& scene) {
   if (motion.turn && norm(motion.angularVelocity) > 0.0)
     throw InputError("both an angular velocity and a turn are given", "", "leave one of them out");
   if (motion.turn && norm(motion.turn->axis) == 0.0)
@@ -226,10 +244,8 @@ dem::PrescribedMotion motionOf(const WallMotion& motion, const WallParts& parts,
   const double speed = norm(motion.angularVelocity);
   const Vec3 axis = motion.turn ? normalized(motion.turn->axis) : speed > 0.0 ? motion.angularVelocity / speed : Vec3{};
   const Travel angle = motion.turn ? travelOf(motion.turn->angle, scene) : travelAt({speed, ""}, scene);
-  const RigidMotion base = parts.base;
-  const Vec3 own = base.x + rotate(base.turn, parts.centre);
   const Vec3 centre = motion.turn ? motion.turn->point.value_or(own) : own, arm = base.x - centre;
-  return [=, since = parts.since](double time) {
+  return [=](double time) {
     const double t = time - since;
     const Quaternion turn = fromRotationVector(angle.displacement(t) * axis);
     const Vec3 turned = rotate(turn, arm), omega = angle.velocity(t) * axis;

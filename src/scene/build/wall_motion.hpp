@@ -12,9 +12,13 @@ struct MovedModel {
   const coupling::CoupledRun& run;
 };
 
-/// Of the point of a wall from `parts.base` and `parts.since` on; functions of time count from there.
+/// Of a point of a rigid whole that is at `base` at time `since`, s; functions of time count from there.
+/// @param centre  that it turns about unless its turn has a point, m
 /// @throws InputError for a path and a turn that are given twice, or an axis of no length
-dem::PrescribedMotion motionOf(const WallMotion& motion, const WallParts& parts, const Scene& scene);
+dem::PrescribedMotion motionOf(const RigidPath& motion, const dem::RigidMotion& base, const Vec3& centre, double since,
+                               const Scene& scene);
+/// Of the point of a wall from `parts.base` and `parts.since` on.
+dem::PrescribedMotion motionOf(const RigidPath& motion, const WallParts& parts, const Scene& scene);
 
 /// Where the point of a wall is now, and how the wall is turned.
 dem::RigidMotion placeOf(const WallParts& parts, const dem::Model& grains, double time);

@@ -69,10 +69,7 @@ Vec3 centroidOf(const geometry::TriangleMesh& mesh) {
 
 void add(const Target& to, const SurfaceFile& from) {
   const auto patches = from.closed ? geometry::ClosedPatches::keep : geometry::ClosedPatches::turn;
-  std::vector<std::string> files{from.file};
-  files.insert(files.end(), from.more.begin(), from.more.end());
-  geometry::TriangleMesh mesh = repairedSurface(files, from.tolerance / from.scale, patches, to.notes);
-  for (Vec3& x : mesh.x) x = from.scale * x + from.shift;
+  geometry::TriangleMesh mesh = surfaceOf(from, patches, to.notes);
   to.parts.point = from.point.value_or(centroidOf(mesh));
   dem::MeshWall made;
   made.wall = dem::makeWall(std::move(mesh.x), std::move(mesh.facets), from.closed);

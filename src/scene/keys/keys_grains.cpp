@@ -14,11 +14,20 @@ void describe(Fields& f, Lattice& v) {
   f.number({"distance", "between nearest centres; twice the radius if not given"}, v.distance, positive(unit::length));
   density(f, v.density);
 }
+void describe(Fields& f, CylinderRegion& v) {
+  f.vector({"point", "centre of one end"}, v.point, unit::length);
+  f.vector({"axis", "direction towards the other end, of any length"}, v.axis, unit::none);
+  f.number({"radius", "of the cylinder"}, v.radius, positive(unit::length));
+  f.number({"length", "between the ends"}, v.length, positive(unit::length));
+}
 void describe(Fields& f, RandomPacking& v) {
-  f.box({"box", "that is filled; where it spans a period, the packing is periodic"}, v.box);
+  f.box({"box", "that is filled; where it spans a period, the packing is periodic; or cylinder or surface"}, v.box);
+  f.object({"cylinder", "that is filled, in place of a box"}, v.cylinder);
+  f.object({"surface", "closed, whose inside is filled, in place of a box"}, v.surface);
   f.object({"radius", "of the spheres"}, v.radius);
-  f.number({"solid_fraction", "volume of the spheres over that of the box"}, v.solidFraction,
-           between(0.0, 0.74, true, true));
+  f.number({"solid_fraction", "volume of the spheres over that of the region; 0.55 if there is no number"},
+           v.solidFraction, between(0.0, 0.74, true, true));
+  f.integer({"number", "of spheres, exactly, in place of a solid fraction; 0: not given"}, v.number, 0, many);
   f.number({"overlap", "largest overlap in the packing, over the smaller radius"}, v.overlap, between(0.0, 0.1, true));
   f.integer({"seed", "the same seed gives the same packing"}, v.seed, 0, anySeed);
   density(f, v.density);
@@ -86,13 +95,16 @@ void describe(Fields& f, SphereWall& v) {
   f.number({"radius", "of the sphere"}, v.radius, positive(unit::length));
   f.flag({"inside", "whether grains are inside"}, v.inside);
 }
-void describe(Fields& f, SurfaceFile& v) {
+void describe(Fields& f, TriangleFiles& v) {
   f.file({"file", "triangles: STL, OBJ, PLY, or VTP where the build has VTK"}, v.file);
-  f.fileList({"more_files", "further files of the same wall, which turns and moves as one"}, v.more);
+  f.fileList({"more_files", "further files of the same surface"}, v.more);
   f.number({"tolerance", "vertices no farther apart become one, so that edges of gaps and files close"}, v.tolerance,
            notNegative(unit::length));
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
   f.vector({"shift", "after scaling"}, v.shift, unit::length);
+}
+void describe(Fields& f, SurfaceFile& v) {
+  describe(f, static_cast<TriangleFiles&>(v));
   f.flag({"closed",
           "closed surface with contact on the side of its normals only: a body, or with normals inwards a cavity "
           "around the grains; otherwise a sheet with contact on both sides"},
@@ -101,7 +113,7 @@ void describe(Fields& f, SurfaceFile& v) {
 }
 void describe(Fields& f, Turn& v) {
   f.vector({"axis", "of any length"}, v.axis, unit::none);
-  f.vector({"point", "on the axis; the point or centre of the wall if not given, and the centre of a box"}, v.point,
+  f.vector({"point", "on the axis; if not given the point or centre of the wall, or the centre of the group"}, v.point,
            unit::length);
   f.function({"angle", "may be an expression of the time t; counter-clockwise seen from the tip of the axis"}, v.angle,
              any(unit::angle));
@@ -118,6 +130,11 @@ constexpr Key turnKey{"turn", "rotation, in place of an angular velocity"};
 constexpr Key servoKey{"servo", "moves the wall so that it keeps a force, a pressure or a torque; in place of a path"};
 constexpr Key beltKey{"surface_velocity",
                       "of the surface over the wall, as of a belt: along a plane or flat mesh, or a cylinder's axis"};
+void rigidPath(Fields& f, RigidPath& v) {
+  path(f, v.velocity, v.displacement);
+  f.vector({"angular_velocity", "constant, about an axis through the point or centre"}, v.angularVelocity, unit::spin);
+  f.object(turnKey, v.turn);
+}
 }  // namespace
 
 void describe(Fields& f, KeptForce& v) {
@@ -151,9 +168,7 @@ void describe(Fields& f, Wall& v) {
   f.oneOf({"shape", "of the wall"}, v.shape, shapes);
   f.text({"name", "for probes and changes: letters, digits, '_', '-' and '.', with a letter first"}, v.name, false);
   contactMaterial(f, v.contactMaterial);
-  path(f, v.velocity, v.displacement);
-  f.vector({"angular_velocity", "constant, about an axis through the point or centre"}, v.angularVelocity, unit::spin);
-  f.object(turnKey, v.turn);
+  rigidPath(f, v);
   f.object(servoKey, v.servo);
   f.vector(beltKey, v.surfaceVelocity, unit::velocity);
   f.flag({"present", "at the start; a stage may take the wall away or put it in place"}, v.present);
@@ -175,6 +190,7 @@ void describe(Fields& f, WallChange& v) {
 
 void describe(Fields& f, Clump& v) {
   f.where(v.where);
+  f.text({"name", "of the group, for bonds and drives; clumps of one name are one group"}, v.name, false);
   f.list({"spheres", "of the clump, in its own coordinates"}, v.spheres, true);
   contactMaterial(f, v.contactMaterial);
   density(f, v.density);
@@ -214,7 +230,7 @@ void describe(Fields& f, Outlet& v) {
 
 void describe(Fields& f, BondGroup& v) {
   f.where(v.where);
-  f.text({"group", "of particles, by its name"}, v.group, true);
+  f.text({"group", "of particles or clumps, by its name"}, v.group, true);
   f.text({"with", "the other group; not given: bonds within the group"}, v.with, false);
   f.number({"gap", "largest distance between surfaces of bonded grains, at the start"}, v.gap,
            notNegative(unit::length));
@@ -232,9 +248,9 @@ void describe(Fields& f, BondGroup& v) {
 }
 void describe(Fields& f, Drive& v) {
   f.where(v.where);
-  f.text({"group", "of particles, by its name"}, v.group, true);
-  path(f, v.velocity, v.displacement);
-  f.functions({"spin", "prescribed angular velocity, if grains spin: may be expressions of the time t"}, v.spin,
+  f.text({"group", "of particles or clumps, by its name"}, v.group, true);
+  rigidPath(f, v);
+  f.functions({"spin", "of each about its own centre, if grains spin: may be expressions of the time t"}, v.spin,
               unit::spin);
 }
 

@@ -64,6 +64,9 @@ public:
   void box(Key key, geometry::Box& value) override {
     add(key, listSchema(listSchema(numberSchema(any(unit::length)), 3), 2), std::isnan(value.lower.x));
   }
+  void box(Key key, std::optional<geometry::Box>&) override {
+    add(key, listSchema(listSchema(numberSchema(any(unit::length)), 3), 2), false);
+  }
   void cells(Key key, std::array<int, 3>& value) override {
     add(key, listSchema({{"type", Json::array({"integer", "string"})}, {"minimum", 1}}, 3), value[0] < 1);
   }

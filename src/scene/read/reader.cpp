@@ -72,15 +72,10 @@ public:
     if (const Node* node = take(key, false)) value = vectorOf(*node, key, dimension);
   }
   void box(Key key, geometry::Box& value) override {
-    const Node* node = take(key, std::isnan(value.lower.x));
-    if (!node) return;
-    if (node->kind != Node::Kind::list || node->items.size() != 2)
-      refuse(*node, named(key) + " is " + nameOf(*node), "write two corners: [[0, 0, 0], [1, 1, 1]]");
-    value = {vectorOf(node->items[0], key, unit::length), vectorOf(node->items[1], key, unit::length)};
-    for (int k = 0; k < 3; ++k)
-      if (!(value.lower[k] < value.upper[k]))
-        refuse(*node, named(key) + " has no width along " + std::string(1, "xyz"[k]),
-               "write the lower corner first, each of its coordinates below that of the upper one");
+    if (const Node* node = take(key, std::isnan(value.lower.x))) value = boxOf(*node, key);
+  }
+  void box(Key key, std::optional<geometry::Box>& value) override {
+    if (const Node* node = take(key, false)) value = boxOf(*node, key);
   }
   void function(Key key, TimeValue& value, const Limits& limits) override {
     if (const Node* node = take(key, std::isnan(value.number))) value = timeValueOf(*node, key, limits);
@@ -229,6 +224,16 @@ private:
     const Node* node = node_.find(key.name);
     if (!node && needed) missing_.push_back(key.name);
     return document_.keysOnly ? nullptr : node;
+  }
+  geometry::Box boxOf(const Node& node, Key key) const {
+    if (node.kind != Node::Kind::list || node.items.size() != 2)
+      refuse(node, named(key) + " is " + nameOf(node), "write two corners: [[0, 0, 0], [1, 1, 1]]");
+    const geometry::Box box{vectorOf(node.items[0], key, unit::length), vectorOf(node.items[1], key, unit::length)};
+    for (int k = 0; k < 3; ++k)
+      if (!(box.lower[k] < box.upper[k]))
+        refuse(node, named(key) + " has no width along " + std::string(1, "xyz"[k]),
+               "write the lower corner first, each of its coordinates below that of the upper one");
+    return box;
   }
   std::string adviceOn(const std::string& unknown) const {
     const std::vector<std::string> others = absent();

@@ -35,6 +35,9 @@ public:
   void box(Key key, geometry::Box& value) override {
     json[key.name] = Json::array({listOf(value.lower), listOf(value.upper)});
   }
+  void box(Key key, std::optional<geometry::Box>& value) override {
+    if (value) box(key, *value);
+  }
   void function(Key key, TimeValue& value, const Limits&) override { json[key.name] = textOf(value); }
   void functions(Key key, TimeVector& value, const Dimension&) override { json[key.name] = listOf(value); }
   void functions(Key key, std::optional<TimeVector>& value, const Dimension&) override {

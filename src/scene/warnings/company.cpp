@@ -184,6 +184,10 @@ void lookAtPaths(const Scene& scene, Lines& lines) {
     if (const Vec3 jump = jumpOf(scene.drives[d]); norm(jump) > 0.0)
       lines.push_back("The grains of " + item("drives", d) + " lie " + placeText(jump) + " from their path" + begins +
                       "; they move along it from their own positions.");
+  for (std::size_t d = 0; d < scene.drives.size(); ++d)
+    if (const auto& turn = scene.drives[d].turn; turn && functionOf(turn->angle, scene)(0.0) != 0.0)
+      lines.push_back("The angle of the turn of " + item("drives", d) +
+                      " is not 0 at t = 0; its grains turn on from their own positions: let it start at 0.");
 }
 
 }  // namespace

@@ -106,6 +106,9 @@ public:
     look(key, value.lower, unit::length);
     look(key, value.upper, unit::length);
   }
+  void box(Key key, std::optional<geometry::Box>& value) override {
+    if (value) box(key, *value);
+  }
   void function(Key key, TimeValue& value, const Limits& limits) override {
     if (value.expression.empty()) look(key, value.number, limits.dimension);
   }

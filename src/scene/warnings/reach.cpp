@@ -42,7 +42,9 @@ bool slides(const dem::Model& grains, const Vec3& gravity) {
 /// Ways that nobody knows, or that stages change.
 bool movesUnforeseen(const Scene& scene) {
   return std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes.has_value(); }) ||
-         std::ranges::any_of(scene.walls, [](const Wall& one) { return one.servo.has_value(); });
+         std::ranges::any_of(scene.walls, [](const Wall& one) { return one.servo.has_value(); }) ||
+         std::ranges::any_of(scene.drives,
+                             [](const Drive& one) { return one.turn || norm(one.angularVelocity) > 0.0; });
 }
 
 /// Where grains are and enter, and where they fall from there.

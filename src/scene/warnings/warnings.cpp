@@ -105,6 +105,7 @@ void lookForUnused(const std::set<std::string>& names, const std::set<std::strin
 void lookAtNames(const Scene& scene, Lines& lines) {
   std::set<std::string> groups, usedGroups, materials, usedMaterials;
   for (const Particles& one : scene.particles) groups.insert(one.name), usedMaterials.insert(one.contactMaterial);
+  for (const Clump& one : scene.clumps) groups.insert(one.name);
   for (const BondGroup& one : scene.bonds) usedGroups.insert({one.group, one.with});
   for (const Drive& one : scene.drives) usedGroups.insert(one.group);
   lookForUnused(groups, usedGroups, "The group of particles", lines);

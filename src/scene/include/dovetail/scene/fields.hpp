@@ -47,6 +47,7 @@ public:
   virtual void vector(Key key, Vec3& value, const Dimension& dimension) = 0;
   virtual void vector(Key key, std::optional<Vec3>& value, const Dimension& dimension) = 0;
   virtual void box(Key key, geometry::Box& value) = 0;
+  virtual void box(Key key, std::optional<geometry::Box>& value) = 0;
   /// A value that may be a function of time.
   virtual void function(Key key, TimeValue& value, const Limits& limits) = 0;
   virtual void functions(Key key, TimeVector& value, const Dimension& dimension) = 0;

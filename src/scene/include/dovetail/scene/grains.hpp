@@ -80,6 +80,14 @@ struct Sizes {
 struct MadeOf {
   double density = required;  ///< kg/m³
 };
+/// A surface from files.
+struct TriangleFiles {
+  std::string file;
+  std::vector<std::string> more;  ///< files of the same surface
+  double tolerance = 0.0;         ///< m: vertices that near to each other become one
+  double scale = 1.0;             ///< m per unit of the file
+  Vec3 shift;                     ///< m, after scaling
+};
 struct Lattice : MadeOf {
   enum class Kind { simpleCubic, bodyCentred, faceCentred, hexagonal };
   Kind kind = Kind::hexagonal;
@@ -87,10 +95,20 @@ struct Lattice : MadeOf {
   double radius = required;         ///< m
   std::optional<double> distance;   ///< of centres, m; not given: twice the radius
 };
+/// A cylinder between two planes.
+struct CylinderRegion {
+  Vec3 point = requiredVector, axis = requiredVector;  ///< m, centre of one end; towards the other one
+  double radius = required, length = required;         ///< m
+};
+/// A region inside of a box, a cylinder or a closed surface.
 struct RandomPacking : MadeOf {
-  geometry::Box box = requiredBox;  ///< m
+  std::optional<geometry::Box> box;  ///< m; this, or one of the two below
+  std::optional<CylinderRegion> cylinder;
+  std::optional<TriangleFiles> surface;  ///< closed
   Sizes radius;
-  double solidFraction = 0.55, overlap = 1e-3;
+  std::optional<double> solidFraction;  ///< not given: 0.55, unless there is a number
+  std::int64_t number = 0;              ///< 0: by the solid fraction
+  double overlap = 1e-3;
   std::int64_t seed = 1;
 };
 struct Sphere {
@@ -140,12 +158,7 @@ struct SphereWall {
   double radius = required;      ///< m
   bool inside = true;
 };
-struct SurfaceFile {
-  std::string file;
-  std::vector<std::string> more;  ///< files of the same wall
-  double tolerance = 0.0;         ///< m: vertices that near to each other become one
-  double scale = 1.0;             ///< m per unit of the file
-  Vec3 shift;                     ///< m, after scaling
+struct SurfaceFile : TriangleFiles {
   bool closed = false;
   std::optional<Vec3> point;  ///< centre of rotation, m; not given: the centroid of the surface
 };
@@ -174,12 +187,15 @@ struct Servo {
   Vec3 axis = requiredVector;
   double damping = 0.7;  ///< dem::WallServo::localDamping
 };
-struct WallMotion {
+/// Along a path and about an axis, of a rigid whole.
+struct RigidPath {
   TimeVector velocity;                     ///< m/s
   std::optional<TimeVector> displacement;  ///< m, from where the motion begins; in place of a velocity
-  Vec3 angularVelocity;                    ///< rad/s about `point` or `centre`
+  Vec3 angularVelocity;                    ///< rad/s about the centre of the whole
   std::optional<Turn> turn;                ///< about the same, in place of an angular velocity
-  std::optional<Servo> servo;              ///< in place of all these
+};
+struct WallMotion : RigidPath {
+  std::optional<Servo> servo;  ///< in place of a path
 };
 struct Wall : WallMotion {
   std::variant<Plane, BoxWalls, Cylinder, SphereWall, SurfaceFile> shape;
@@ -191,6 +207,7 @@ struct Wall : WallMotion {
 };
 
 struct Clump {
+  std::string name;             ///< of the group, for bonds and drives; several clumps may have one
   std::vector<Sphere> spheres;  ///< in the clump's own coordinates
   std::string contactMaterial;
   double density = required;  ///< kg/m³
@@ -235,12 +252,11 @@ struct BondGroup {
   bool contacts = true;                                  ///< whether bonded grains have contact forces as well
   std::string where;
 };
-/// Grains with a prescribed motion; if they spin, with the given spin.
-struct Drive {
+/// Grains and clumps with a prescribed motion; if they spin, with the given spin, each about its own centre, or with
+/// that of a turn, all about one axis.
+struct Drive : RigidPath {
   std::string group;
-  TimeVector spin;                         ///< rad/s
-  TimeVector velocity;                     ///< m/s
-  std::optional<TimeVector> displacement;  ///< m; in place of a velocity
+  TimeVector spin;  ///< rad/s
   std::string where;
 };
 

@@ -23,6 +23,7 @@ struct Bodies {
   std::vector<double> mass;             ///< kg
   std::vector<Vec3> inertia;            ///< principal moments, kg m²
   std::vector<Quaternion> orientation;  ///< turns the principal frame into space
+  std::vector<Quaternion> turnedFrom;   ///< orientations before the last drift
   std::vector<Vec3> angularMomentum;    ///< about the centre of mass, in space, kg m²/s
   std::vector<Vec3> torque;             ///< about the centre of mass, in space, N m
 

@@ -38,11 +38,17 @@ public:
   /// To be called when bodies from number `first` on have been appended within a step: they are booked as entered, with
   /// their velocities at this moment.
   void admit(Model& m, int first);
+  /// All forces of the step are known and booked: its last half kick, which is not for newcomers, is taken from what
+  /// they have.
+  void welcome(const Step& step);
   /// Between steps: bodies added since are booked as entered, unless all are new. Members spin as their bodies.
   void takeIn(Model& m, bool first);
 
 private:
   void damp(Model& m);
+  void prescribe(Model& m, const Step& step, Half half);
+  struct Mean;
+  Mean meanOf(const Model& m, const Step& step) const;
   int known_ = 0;   // those behind have just come, and are yet to be booked or in the midst of a step
   Momenta beside_;  // half kicks that newcomers and leavers were not given, kg m/s
 };

@@ -84,6 +84,9 @@ void check(const Particles& particles, const Bodies& bodies, const Clumps& clump
 void requireShorter(const ClumpShape& shape, const geometry::Periodicity& space, const std::string& where);
 void requireShorter(const Particles& particles, const Clumps& clumps, const geometry::Periodicity& space);
 
+/// Body of every particle, −1 of those that are no members.
+std::vector<int> bodyOfParticles(std::size_t particles, const Clumps& clumps);
+
 /// Factor 0 (PairList::factors) on the pairs within one body, so that members that overlap make no force and store no
 /// energy. Again for every new list; any number of times.
 void muteMemberPairs(const Clumps& clumps, PairList& list);

@@ -5,10 +5,13 @@
 
 #include "dovetail/dem/bonds/bonds.hpp"
 #include "dovetail/dem/model/model.hpp"
+#include "dovetail/dem/walls/rigid_motion.hpp"
 
 namespace dovetail::dem {
 
-/// Bonds between the particles of the model; these spin then.
+class BodyTerm;
+
+/// Bonds between the particles of the model; these spin then. Members of clumps turn their ends as their body turns.
 class BondTerm final : public Term {
 public:
   Bonds bonds;
@@ -73,13 +76,15 @@ private:
   std::vector<Vec3> force_;
 };
 
-/// Particles with a prescribed path and spin; those of zero displacement are held. Where particles spin, driven ones
-/// keep the spin that is prescribed, zero unless another one is given. The drive gives impulse and work; a jump of the
-/// velocity, as at its start, does its work with the mean velocity.
+/// Particles and clumps with a prescribed motion; those of zero displacement are held. Where particles spin, driven
+/// ones keep the spin that is prescribed, zero unless another one is given. The drive gives impulse and work; a jump of
+/// the velocity, as at its start, does its work with the mean velocity. In periodic space a group that turns is no
+/// farther from its axis than half a period.
 class DriveTerm final : public Term {
 public:
   using Path = std::function<Vec3(double time)>;
-  /// @param ids of the particles (Particles::id)
+  using Motion = std::function<RigidMotion(double time)>;
+  /// @param ids of the particles (Particles::id), all members of a clump or none
   /// @param displacement of time (s) since the start of the model, m; smooth enough for `velocity`, its derivative, m/s
   /// @param spin  of time, rad/s; empty: none
   DriveTerm(std::vector<std::int64_t> ids, Path displacement, Path velocity, Path spin = {})
@@ -87,6 +92,9 @@ public:
         displacement_(std::move(displacement)),
         velocity_(std::move(velocity)),
         spin_(std::move(spin)) {}
+  /// All together as one rigid body. @param motion of a point that it turns about, from where the particles are as the
+  /// drive begins
+  DriveTerm(std::vector<std::int64_t> ids, Motion motion) : ids_(std::move(ids)), rigid_(std::move(motion)) {}
 
   std::string name() const override { return "drive"; }
   std::unique_ptr<Term> clone() const override { return std::make_unique<DriveTerm>(*this); }
@@ -101,10 +109,18 @@ public:
   void load(ByteReader& reader) override;
 
   const std::vector<std::int64_t>& ids() const { return ids_; }
-  /// Numbers of its particles as they are now.
-  const std::vector<int>& numbers(const Particles& particles);
-  /// Velocity, m/s, and spin, rad/s, that it prescribes at a time.
+  /// Numbers of its single particles as they are now.
+  const std::vector<int>& numbers(const Particles& particles) const;
+  /// Numbers of the bodies of its clumps as they are now.
+  const std::vector<int>& bodyNumbers(const Particles& particles, const BodyTerm& term) const;
+  /// Velocity, m/s, of the point that it turns about, or of all, and spin, rad/s, that it prescribes at a time.
   Momenta motionAt(double time) const;
+  /// As prescribe, of its bodies; and their turn, after they have drifted freely.
+  void prescribeBodies(Model& m, BodyTerm& term, const Step& step, Half half);
+  void turnBodies(const Model& m, BodyTerm& term, const Step& step) const;
+  /// As meanMotion, of its bodies: one entry per body of the term each.
+  void meanMotionOfBodies(const Model& m, const BodyTerm& term, const Step& step, std::span<Vec3> v,
+                          std::span<Vec3> omega) const;
 
   bool stands = false;  ///< holds the particles where they are, whatever their path, until it is set back
   Vec3 supportImpulse;  ///< given to the particles so far, kg m/s
@@ -112,12 +128,19 @@ public:
   Momenta support;  ///< force on the particles at the end of the last step, N, and its moment about their centre, N m
 
 private:
-  Momenta motionIn(const Step& step, Half half) const;
+  struct Way;
+  Way wayIn(const Model& m, const Step& step) const;
+  Vec3 meanPlace(const Model& m) const;
   std::vector<std::int64_t> ids_;
   Path displacement_, velocity_, spin_;
-  std::vector<int> particle_;
-  std::int64_t located_ = -1;
+  Motion rigid_;
+  mutable std::vector<int> particle_, body_;
+  mutable std::int64_t located_ = -1, bodiesLocated_ = -1;
+  Vec3 centre_;  // of its particles and bodies at the end of a step, m
 };
+
+/// Marks of the bodies that drives move, one per body.
+std::vector<char> drivenBodies(const Model& m, const BodyTerm& term);
 
 /// The bonds of the model, made when first asked for.
 Bonds& bonds(Model& m);

@@ -8,23 +8,42 @@
 
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/setup/sizes.hpp"
+#include "dovetail/dem/walls/primitive_wall.hpp"
 #include "dovetail/geometry/box.hpp"
 #include "dovetail/geometry/hierarchical_grid.hpp"
+#include "dovetail/geometry/triangle_mesh.hpp"
 
 namespace dovetail::dem {
 
+/// A part of a box to which spheres keep, in place of the whole of it: on the particles' side of walls, and inside a
+/// closed surface with outward normals.
+struct PackingRoom {
+  geometry::Box box;  ///< around it, m
+  std::vector<PrimitiveWall> walls{};
+  geometry::TriangleMesh surface{};
+  double volume = 0.0;  ///< m³; 0: the whole box
+};
+
+/// The cylinder between two planes. @param axis from one end, at `point`, towards the other, of any length
+/// @throws InputError if the axis has no length, or radius or length are not finite and > 0
+PackingRoom cylinderRoom(const Vec3& point, const Vec3& axis, double radius, double length);
+/// @throws InputError as solidInside, if the surface is not closed
+PackingRoom roomInside(geometry::TriangleMesh surface);
 /// Spheres in a box.
 struct Packing {
   std::vector<Vec3> centre;    ///< m
   std::vector<double> radius;  ///< m
   /// The box, and the axes along which it repeats; along the others it has walls, which no sphere crosses.
   geometry::Periodicity space;
-  double volume() const { return space.length(0) * space.length(1) * space.length(2); }
+  PackingRoom room{};  ///< if it is less than the box
+  double volume() const {
+    return room.volume > 0.0 ? room.volume : space.length(0) * space.length(1) * space.length(2);
+  }
 };
 
 /// Σ 4/3 π R³, m³; overlaps count twice.
 double volumeOf(std::span<const double> radius);
-/// The same over the volume of the box.
+/// The same over the volume of the box or room.
 double solidFraction(const Packing& packing);
 
 /// Appends the spheres as particles. Returns the number of the first.
@@ -59,16 +78,19 @@ struct PackingReport {
 };
 
 struct GrowthOptions {
-  double solidFraction = 0.55;       ///< of the box, in (0, 0.74)
+  double solidFraction = 0.55;       ///< of the box or room, in (0, 0.74)
+  std::int64_t number = 0;           ///< of spheres, in place of a solid fraction; 0: not given
+  PackingRoom room{};                ///< in the box, which does not repeat then
   double overlap = 1e-3;             ///< largest one that is left, over the smaller radius
   std::uint64_t seed = 1;            ///< same seed, same packing
   std::int64_t iterations = 200000;  ///< given up after so many
 };
 
-/// Draws radii until the solid fraction is reached (the last one is left out if that comes closer), places the spheres
-/// at random, small, and lets all of them grow in proportion (after Lubachevsky & Stillinger, J. Stat. Phys. 60, 1990;
-/// here without events: soft spheres relax by FIRE, Bitzek et al., Phys. Rev. Lett. 97, 2006, after each bit of growth)
-/// until they have the sizes drawn, or no bit of growth can be relaxed any more. No friction, no gravity.
+/// Draws so many radii, or until the solid fraction is reached (the last one is left out if that comes closer), places
+/// the spheres at random, small, and lets all of them grow in proportion (after Lubachevsky & Stillinger, J. Stat.
+/// Phys. 60, 1990; here without events: soft spheres relax by FIRE, Bitzek et al., Phys. Rev. Lett. 97, 2006, after
+/// each bit of growth) until they have the sizes drawn, or no bit of growth can be relaxed any more. No friction, no
+/// gravity.
 /// @throws InputError if the sizes or the space are not valid, the solid fraction is not in (0, 0.74), the overlap not
 /// in
 ///   (0, 0.1], the box holds fewer than one sphere, or a sphere is wider than the box
