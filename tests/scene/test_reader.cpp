@@ -60,6 +60,11 @@ TEST(SceneReader, ValuesInPlaceOfObjectsAreToldTheirKeys) {
   EXPECT_NE(refused("stages=[3]").find("stages.0]: write {\"do\": …}"), std::string::npos) << refused("stages=[3]");
 }
 
+TEST(SceneReader, KeysUnlikeAnyAreToldAllOfTheObject) {
+  EXPECT_NE(refusal(smallScene, {"contact.E=3"}).find("write one of \"law\", \"stiffness\", "), std::string::npos)
+      << refusal(smallScene, {"contact.E=3"});
+}
+
 TEST(SceneReader, ControlCharactersAreRefused) {
   for (const char* text : {"a\\u0000b", "a\\nb", "\\u007f"}) {
     EXPECT_NE(refusal(replaced(smallScene, "linear", text)).find("control character [s.json:4:12]"), std::string::npos);

@@ -240,7 +240,11 @@ private:
     if (nearest(unknown, others).empty())
       if (const std::string near = nearest(unknown, known_); !near.empty())
         return "leave it out: \"" + near + "\" is there already";
-    return adviceFor(unknown, others);
+    // What is there already tells the right name of another quantity: youngs_modulus for E.
+    std::vector<std::string> all;
+    for (const std::string& name : known_)
+      if (std::find(all.begin(), all.end(), name) == all.end()) all.push_back(name);
+    return adviceFor(unknown, nearest(unknown, others).empty() ? all : others);
   }
   std::vector<std::string> absent() const {
     std::vector<std::string> names;
