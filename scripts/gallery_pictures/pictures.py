@@ -63,6 +63,8 @@ PICTURES = (
             lines=('"outlets"', '"stages"')),
     Picture("drum", "A thin layer flows down the slope, several times as fast as the wall; the core below hardly moves.",
             draw="--azimuth 9 --elevation 6", lines=('"periodic"', '"walls"')),
+    Picture("stirrer", "Section: the beads around the stirrer, a driven clump at the bottom, go with it; others hardly move.",
+            draw="--cut y 0", lines=('"particles"', '{"name": "stirrer"', '"drives"')),
     Picture("chute", "The bottom layer is held; speed grows with height, most of all near the base.",
             lines=('"gravity"', '"periodic"', '"drives"')),
     Picture("belt", "The belt has started: the lower beads go with it, the upper ones lag behind.", frame=0.2,
