@@ -95,7 +95,7 @@ double powerOn(const Particles& p, const PairList& list) {
 }  // namespace
 
 /// The contacts under bonds that have just broken, in a list of their own. They start without memory, as if half a
-/// step ago; what they stored then was not there before, so that the break loses so much less.
+/// step ago; what they stored then, and their dents, were not there before, so that the break loses so much less.
 void BondTerm::wake(Model& m, const Step& step) {
   PairList& list = m.pairs;
   std::vector<std::size_t> places;
@@ -112,8 +112,8 @@ void BondTerm::wake(Model& m, const Step& step) {
   const double before = powerOn(m.particles, awake);
   ContactWork work = m.laws->pairs(m.particles, awake, step.dt, m.booking);
   if (m.booking == Booking::on)
-    work.fracturePower -=
-        work.storedEnergy() / step.dt + 0.5 * (powerOn(m.particles, awake) - before + work.dissipatedPower);
+    work.fracturePower -= work.storedEnergy() / step.dt + work.plasticPower +
+                          0.5 * (powerOn(m.particles, awake) - before + work.dissipatedPower);
   m.work += work;
   list.takeMemory(places, awake);
 }

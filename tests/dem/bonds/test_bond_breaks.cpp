@@ -67,9 +67,9 @@ TEST(BondDashpots, AreBookedAtSecondOrder) {
 }
 
 /// Two overlapping spheres, bonded and muted, that run into one another and are sheared.
-Model pressed() {
+Model pressed(std::shared_ptr<const ContactLaws> laws = makeContactLaws(ElasticLaw{{1e4}})) {
   Model model;
-  model.laws = makeContactLaws(ElasticLaw{{1e4}});
+  model.laws = std::move(laws);
   model.pairs.setSkin(0.02);
   for (int i = 0; i < 2; ++i)
     addParticle(model.particles, {0.098 * i, 0, 0}, {i == 0 ? 0.3 : -0.3, 0, 0}, 0.05, Mass{1.0});
@@ -105,6 +105,22 @@ TEST(BrokenBonds, LeaveTheirCompressionToTheContactInThatVeryStep) {
     EXPECT_EQ(e.contacts, 0.0);  // they have parted
     EXPECT_NEAR(e.balance(), start, 1e-4 * e.kinetic);
     EXPECT_GT(dot(model.particles.v[1] - model.particles.v[0], model.particles.x[1] - model.particles.x[0]), 0.0);
+  }
+}
+
+TEST(BrokenBonds, PayForTheDentsOfTheirContacts) {
+  for (const double cohesion : {0.0, 1e3}) {
+    Model model = pressed(makeContactLaws(ContactLaw<ElasticPlastic>{{1e4, 4e4, cohesion}}));
+    const double start = energies(model).balance();
+    run(model, 1e-5, 800);
+    bonds(model).bonds[0].shearStrength = 1e-3;
+    advance(model, 1e-5);
+    ASSERT_EQ(bonds(model).size(), 0u);
+    close(model);
+    const Energies e = energies(model);
+    const double overlap = 0.1 - norm(model.particles.x[1] - model.particles.x[0]);
+    EXPECT_NEAR(e.lost.plasticPower, 0.5 * 7.5e3 * overlap * overlap, 1e-2 * e.lost.plasticPower) << cohesion;
+    EXPECT_NEAR(e.balance(), start, 2e-3 * e.lost.plasticPower) << cohesion;
   }
 }
 
