@@ -1,6 +1,7 @@
 #include "dovetail/coupling/run.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
@@ -118,8 +119,11 @@ void CoupledRun::advance(std::int64_t macroSteps, bool withEnergies) {
 
 void CoupledRun::change(const std::function<void()>& act) {
   const auto energy = [&] {
-    const EnergyLedger& now = ledger();
-    return now.stored() + now.booked();
+    std::map<std::string, double> channels;  // their order in the ledger is another one in a run that was resumed
+    for (const auto& channel : ledger().channels()) channels[channel.name] += channel.joules;
+    double sum = 0.0;
+    for (const auto& [name, joules] : channels) sum += joules;
+    return sum;
   };
   const double before = energy();
   act();
