@@ -64,6 +64,27 @@ std::set<std::string> arraysIn(const std::filesystem::path& pvd) {
 }
 using Names = std::set<std::string>;
 
+/// Laws, gravity and walls that a stage has changed are those of the fields.
+TEST(SceneFields, FollowWhatStagesHaveChanged) {
+  const Scene changing = sceneFromText(R"({"gravity": [0, 0, -9.81],
+      "contact": {"law": "linear", "stiffness": 1e4, "restitution": 0.5},
+      "particles": [{"from": "list", "density": 2500, "spheres": [{"at": [0, 0, 0.00999], "radius": 0.01}]}],
+      "walls": [{"name": "floor", "shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}], "steps": {"dt": 1e-5},
+      "stages": [{"do": "run", "time": 1e-4}, {"do": "run", "time": 1e-4, "changes": {
+        "contact": {"law": "linear", "stiffness": 3e4, "restitution": 0.5},
+        "walls": [{"wall": "floor", "present": false}]}}],
+      "output": {"checkpoints": 1e-4}})",
+                                       "s.json", "/");
+  const ScratchFolder folder;
+  std::ostringstream log;
+  ASSERT_TRUE(run(changing, {.folder = folder / "out", .progress = false}, log));
+  writeGridFields(folder / "out", {.width = 0.03, .spacing = 0.01, .file = folder / "f.vti"}, log);
+  for (const io::FrameArray& array : io::readFrame(folder / "f.vti").arrays)
+    if (array.name == "wall_force") {
+      for (const double force : array.values) EXPECT_EQ(force, 0.0);
+    }
+}
+
 /// The first frame is the equilibrium that a stage without time ends with.
 TEST(SceneFrames, AStageWithoutTimeReplacesTheFrameBefore) {
   const Scene loaded = sceneFromText(R"({"solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 4],

@@ -2,8 +2,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "../io/scratch_folder.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
+#include "dovetail/io/time_series.hpp"
+#include "dovetail/scene/execute.hpp"
 #include "scene_parts.hpp"
 
 namespace dovetail::scene::test {
@@ -297,6 +300,23 @@ TEST(SceneDamping, ViscosityShortensExplicitSteps) {
   };
   const double h = limitWith(0.0), tau = 0.01;
   EXPECT_NEAR(limitWith(tau), std::sqrt(tau * tau + h * h) - tau, 1e-9 * h);
+}
+
+TEST(SceneModes, OfAllStagesAreInOneFile) {
+  const std::string dead = R"("loads": [{"on": "z+", "type": "traction", "traction": [0, 0, 1e5]}])";
+  const Scene scene = staticScene(
+      bar(dead), R"({"do": "modes", "count": 2}, {"do": "statics", "load_steps": 2}, {"do": "modes", "count": 3})");
+  const io::test::ScratchFolder folder;
+  std::ostringstream log;
+  for (int again = 0; again < 2; ++again) {
+    ASSERT_TRUE(run(scene, {.folder = folder.path(), .progress = false}, log));
+    const io::TimeSeries modes = io::readCsv(folder / "modes.csv");
+    ASSERT_EQ(modes.rows(), 5U);
+    EXPECT_EQ(modes.column("stage")[1], 1.0);
+    EXPECT_EQ(modes.column("stage")[2], 3.0);
+    EXPECT_EQ(modes.column("mode")[4], 3.0);
+    EXPECT_GT(modes.column("frequency_Hz")[2], 1.01 * modes.column("frequency_Hz")[0]);  // under tension
+  }
 }
 
 TEST(SceneModes, ABuiltBarRefusesWhatHasNone) {

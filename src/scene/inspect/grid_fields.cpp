@@ -98,7 +98,7 @@ void writeGridFields(const std::filesystem::path& folder, const GridOptions& set
   const std::string identity = identityOf(scene);
   Built built = build(scene);
   start(built, scene);
-  adopt(lastCheckpoint(folder, log, Damaged::isLeft), identity, *built.run);
+  adopt(lastCheckpoint(folder, log, Damaged::isLeft), identity, built, scene);
   dem::Model& grains = built.run->grains;
   if (grains.particles.size() == 0) throw InputError("there are no grains", folder.string(), "give a run with some");
   dem::findForces(grains);  // of bonds, which states do not hold

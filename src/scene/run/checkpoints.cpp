@@ -80,11 +80,14 @@ void writeCheckpoint(const fs::path& folder, const std::string& identity, const 
   writeChecked(lastState(folder), checkpointKind, archive.bytes());
 }
 
-void adopt(const Checkpoint& checkpoint, const std::string& identity, coupling::CoupledRun& run) {
+void adopt(const Checkpoint& checkpoint, const std::string& identity, Built& built, const Scene& scene) {
   if (checkpoint.scene != identity)
     throw InputError("the checkpoint is of another scene", "checkpoint.state",
                      "restore its scene.json, or start a new run");
-  run.load(checkpoint.state);
+  const std::vector<StageStart>& begun = checkpoint.progress.begun;
+  for (std::size_t k = 0; k < begun.size() && k < scene.stages.size(); ++k)
+    beginStage(built, scene, k, begun[k], Grains::follow);
+  built.run->load(checkpoint.state);
 }
 
 std::string identityOf(const Scene& scene) {

@@ -67,8 +67,9 @@ Checkpoint lastCheckpoint(const std::filesystem::path& folder, std::ostream& log
 /// Keeps the last checkpoint, and the one before.
 void writeCheckpoint(const std::filesystem::path& folder, const std::string& identity, const Progress& progress,
                      coupling::CoupledRun& run);
-/// Puts the state in force. @param identity  of the scene. @throws InputError if the state is of another scene
-void adopt(const Checkpoint& checkpoint, const std::string& identity, coupling::CoupledRun& run);
+/// Puts the state in force, with what the stages so far have changed. @param identity  of the scene. @throws InputError
+/// if the state is of another scene
+void adopt(const Checkpoint& checkpoint, const std::string& identity, Built& built, const Scene& scene);
 
 /// All of a scene that its states depend on, as a scene in full: without the number of threads, and with 1 s for its
 /// last stage if that runs for a time.

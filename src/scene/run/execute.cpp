@@ -13,12 +13,12 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
-#include "dovetail/fem/solve/modes.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/read.hpp"
 #include "frames.hpp"
 #include "lengthening.hpp"
+#include "modes.hpp"
 #include "plan.hpp"
 #include "run_files.hpp"
 #include "series.hpp"
@@ -79,7 +79,9 @@ public:
       const auto* const relax = std::get_if<Relax>(&stage.kind);
       const auto* const statics = std::get_if<Statics>(&stage.kind);
       const auto* const modes = std::get_if<FindModes>(&stage.kind);
-      if (modes) findModes(*modes, stage.where);
+      if (modes)
+        for (const std::string& line : findModes(built_, scene_, progress_.stage, file(modesFile), provenance_))
+          remark(line, false);
       if (!(relax ? comeToRest(*relax) : statics ? load(*statics) : runFor(plan_.stages[progress_.stage])))
         return stop();
       // Before what only an end has: longer runs go on from here.
@@ -197,24 +199,6 @@ private:
     }
     return true;
   }
-  /// A row per solid and mode of modes.csv.
-  void findModes(const FindModes& wanted, const std::string& where) {
-    io::TimeSeries table({"stage", "solid", "mode", "frequency_Hz"});
-    for (std::size_t s = 0; s < built_.run->solids(); ++s) {
-      const coupling::SolidSide& side = built_.run->solid(s);
-      fem::ModesOptions options{.count = wanted.count, .massFraction = side.mass->fraction()};
-      options.linear.method = static_cast<linalg::LinearMethod>(scene_.solids[s].linearSolver);
-      const fem::Modes modes = atPlace(where, [&] { return fem::modesOf(*side.model, options); });
-      std::string line;
-      for (std::size_t m = 0; m < modes.frequency.size(); ++m) {
-        table.append({static_cast<double>(progress_.stage + 1), static_cast<double>(s), static_cast<double>(m + 1),
-                      modes.frequency[m]});
-        if (m < 6) line += (m > 0 ? ", " : "") + formatNumber(modes.frequency[m]);
-      }
-      remark("frequencies of \"" + side.name + "\": " + line + (modes.frequency.size() > 6 ? ", … Hz" : " Hz"), false);
-    }
-    io::writeCsv(file(modesFile), table, provenance_);
-  }
   void endLoad(const Statics& statics) {
     double farthest = 0.0;
     for (std::size_t s = 0; s < built_.run->solids(); ++s)
@@ -307,10 +291,7 @@ private:
   void takeState() {
     const Checkpoint last = lastCheckpoint(settings_.folder, log_, Damaged::isSetAside);
     progress_ = last.progress;
-    if (last.scene == identity_)
-      for (std::size_t k = 0; k < progress_.begun.size() && k < scene_.stages.size(); ++k)
-        beginStage(built_, scene_, k, progress_.begun[k], Grains::follow);
-    adopt(last, identity_, *built_.run);
+    adopt(last, identity_, built_, scene_);
     seconds_ = readTimes(settings_.folder, scene_.stages.size());
     if (settings_.until) {
       lengthen(scene_, plan_, progress_, *built_.run, *settings_.until);
