@@ -182,6 +182,26 @@ TEST(Belts, CarryBallsUntilTheyRoll) {
   EXPECT_LT(residualOf(built), 0.02 * mass * 0.14);
 }
 
+/// However its angle goes, in any state of a run.
+TEST(Belts, StayAlongTheirPlaneAsItTurns) {
+  const Scene scene = sceneWith(R"("particles": [{"from": "list", "density": 2500,
+      "spheres": [{"at": [0, 0, 0.0099], "radius": 0.01}]}], "walls": [{"shape": "plane", "point": [0, 0, 0],
+      "normal": [0, 0, 1], "surface_velocity": [0.7, 0.1, 0], "turn": {"axis": [0, 1, 0], "angle": "0.3*sin(90*t)"
+}
+}],)",
+                                aRun, R"("dt": 1e-3)");
+Built whole = started(scene), rest = started(scene);
+whole.run->advance(40);
+const dem::PrimitiveWall& wall = wallOf(whole, 0);
+EXPECT_GT(std::abs(wall.axis.x), 0.01);
+EXPECT_NEAR(dot(wall.surfaceVelocity, wall.axis), 0.0, 1e-14);
+EXPECT_NEAR(norm(wall.surfaceVelocity), std::sqrt(0.5), 1e-12);
+rest.run->load(whole.run->save());
+whole.run->advance(20);
+rest.run->advance(20);
+EXPECT_TRUE(whole.run->save() == rest.run->save());
+}
+
 TEST(Turns, GoAboutAnyPointOfAnyShape) {
   if (!WITH_EXPRESSIONS) GTEST_SKIP() << "expressions need muParser";
   const std::string turn = R"("turn": {"axis": [0, 1, 0], "angle": "5*t", "point": [1, 0, 2]})";
@@ -287,7 +307,7 @@ TEST(StageChanges, GravityActsAnewAndGatesLetGo) {
     begin(built, scene, 2);
     ADD_FAILURE();
   } catch (const InputError& error) {
-    expectParts(error.what(), {"1 grain lies behind the plane"});
+    expectParts(error.what(), {"1 grain lies behind the plane", "at t = ", "changes.walls.0"});
   }
 }
 
@@ -318,9 +338,33 @@ TEST(StageChanges, LimitStepsAndAreTold) {
               {"surface_velocity"});
   expectParts(changed(R"("contact": {"law": "Hertz", "youngs_modulus": 1e6, "poisson_ratio": 0.3})"),
               {"cannot be mixed"});
+  expectParts(changed(R"("contact": {"law": "elastic-plastic", "stiffness": 1e4, "unloading_stiffness": 2e4})"),
+              {"linear and elastic-plastic", "\"law\": \"linear\""});
+  expectParts(changed(R"("walls": [{"wall": "12345678901234567890123", "present": false}])"), {"no wall 12345"});
   expectParts(changed(R"("loads": [{"solid": "b", "on": "x+", "type": "pressure", "pressure": 1}])"),
               {"no solid \"b\""});
   EXPECT_EQ(changed(R"("walls": [{"wall": 0, "present": false}])"), "");
+}
+
+/// Runs that were resumed have been asked for their energies at other times, and met the channels in another order.
+TEST(Changes, AddTheSameBytesHoweverOftenEnergiesWereAskedFor) {
+  for (const char* const gravity : {"[0, 0, -7]", "[1, 2, -9]", "[0.3, 0, -0.7]"}) {
+    const Scene scene = sceneWith(
+        R"("gravity": [0.1, 0, -10], "damping": {"rate": 3}, "particles": [{"from": "list", "density": 2500, "spheres": [
+          {"at": [0, 0, 0.11], "radius": 0.1}, {"at": [0.01, 0, 0.33], "radius": 0.11, "velocity": [0, 0.1, 0]}]}],
+          "walls": [)" +
+            floorWall + "],",
+        aRun + R"(, {"do": "run", "time": 0.1, "changes": {"gravity": )" + gravity + "}}");
+    Built asked = started(scene), silent = started(scene);
+    for (int k = 0; k < 20; ++k) {
+      asked.run->advance(50);
+      silent.run->advance(50);
+      asked.run->ledger();
+    }
+    begin(asked, scene, 1);
+    begin(silent, scene, 1);
+    EXPECT_TRUE(asked.run->save() == silent.run->save()) << gravity;
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "dovetail/core/error.hpp"
+#include "law_kinds.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
 #include "wall_motion.hpp"
@@ -66,7 +67,7 @@ void requireNoneBehind(const Built& built, const Scene& scene, const Changes& ch
   for (const WallChange& one : changes.walls)
     if (one.present.value_or(false)) {
       const std::size_t item = wallNamed(one.wall, scene);
-      requireBefore(built.run->grains, scene, item, built.walls[item]);
+      atPlace(one.where, [&] { requireBefore(built.run->grains, scene, item, built.walls[item]); });
     }
 }
 
@@ -80,9 +81,7 @@ void requireLaw(const Scene& scene, const ContactLaw& law) {
   const ContactLaw& first = scene.contact ? *scene.contact : scene.contacts.front().law;
   if (isBonded(law) || isBonded(first))
     throw InputError("bonded springs cannot change", law.where, "leave contact out of the changes");
-  if (law.normal.index() != first.normal.index())
-    throw InputError("linear and Hertz laws cannot be mixed in one scene", law.where,
-                     std::string("write \"law\": \"") + (first.normal.index() == 0 ? "linear\"" : "Hertz\""));
+  requireSameNormal(law, first);
 }
 
 void requireLoad(const Scene& scene, const LoadChange& change) {

@@ -11,6 +11,7 @@
 #include "dovetail/dem/laws/rolling.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "keys/advice.hpp"
+#include "law_kinds.hpp"
 #include "parts.hpp"
 #include "sizes.hpp"
 
@@ -226,11 +227,7 @@ Meeting meetingIn(const Scene& scene) {
 }
 
 void requireAlike(const ContactLaw& law, const ContactLaw& first) {
-  static const std::array names{"linear", "Hertz", "elastic-plastic"};
-  const std::string own = names.at(law.normal.index()), others = names.at(first.normal.index());
-  if (own != others)
-    throw InputError(others + " and " + own + " laws cannot be mixed in one scene", law.where,
-                     "write \"law\": \"" + others + "\"");
+  requireSameNormal(law, first);
   if ((isWet(law) && isSticky(first)) || (isWet(first) && isSticky(law)))
     throw InputError("adhesion and liquid bridges cannot be mixed in one scene", law.where, "take one for all pairs");
 }
@@ -341,6 +338,14 @@ std::shared_ptr<const dem::ContactLaws> makeLaws(const Scene& scene) {
   requireDentsWithoutFacets(scene);
   const Table table = tableOf(scene);
   return atPlace(table.entries.front().law->where, [&] { return lawsOf(table); });
+}
+
+void requireSameNormal(const ContactLaw& law, const ContactLaw& first) {
+  static const std::array names{"linear", "Hertz", "elastic-plastic"};
+  const std::string own = names.at(law.normal.index()), others = names.at(first.normal.index());
+  if (own != others)
+    throw InputError(others + " and " + own + " laws cannot be mixed in one scene", law.where,
+                     "write \"law\": \"" + others + "\"");
 }
 
 int contactRow(const Scene& scene, const std::string& name) {

@@ -30,12 +30,22 @@ RigidMotion partOf(const RigidMotion& whole, const Vec3& arm) {
   return {whole.x + turned, whole.turn, whole.v + cross(whole.omega, turned), whole.omega};
 }
 
+/// A belt turns with its wall, whose drift turns it by the velocity of an instant only.
+Vec3 beltAlong(const dem::PrimitiveWall& wall) {
+  const Vec3& v = wall.surfaceVelocity;
+  if (v == Vec3{}) return v;
+  const Vec3 part = dot(v, wall.axis) * wall.axis;
+  const Vec3 along = wall.shape == dem::PrimitiveWall::Shape::cylinder ? part : v - part;
+  return norm(v) / norm(along) * along;
+}
+
 /// The wall as it is now, or so that it drifts there in a step that long.
 void place(dem::PrimitiveWall& wall, const RigidMotion& now, const Vec3& axis, double dt) {
   wall.velocity = now.v;
   wall.angularVelocity = now.omega;
   wall.point = now.x - dt * now.v;
   wall.axis = rotate(fromRotationVector(-dt * now.omega) * now.turn, axis);
+  wall.surfaceVelocity = beltAlong(wall);
 }
 
 template <class Act>
@@ -69,7 +79,7 @@ double massOfGrains(const dem::Model& grains, const char* key) {
   double mass = 0.0;
   forEachGrain(grains, [&](double m, const Vec3&) { mass += m; });
   if (!(mass > 0.0))
-    throw InputError("there are no grains at the start, whose mass the servo could take", "",
+    throw InputError("there are no spheres at the start, clumps left out, whose mass the servo could take", "",
                      std::string("give it a ") + key);
   return mass;
 }

@@ -111,8 +111,9 @@ void requireOwnName(const Scene& scene, const Wall& wall) {
 }  // namespace
 
 std::size_t wallNamed(const std::string& name, const Scene& scene) {
+  constexpr std::size_t longest = 9;  // digits that surely fit
   const bool isNumber = !name.empty() && name.find_first_not_of("0123456789") == std::string::npos;
-  if (isNumber && std::stoul(name) < scene.walls.size()) return std::stoul(name);
+  if (isNumber && name.size() <= longest && std::stoul(name) < scene.walls.size()) return std::stoul(name);
   std::vector<std::string> names;
   for (std::size_t w = 0; w < scene.walls.size(); ++w) {
     if (!isNumber && scene.walls[w].name == name) return w;

@@ -26,8 +26,10 @@ struct AtFault {
     if (count == 1) return "1 grain lies ";
     return (count == p.size() ? "all " : "") + std::to_string(count) + " grains lie ";
   }
-  std::string worstOf(const dem::Particles& p) const {
-    return "at the start, the farthest by " + rounded(by) + " m (particle " + std::to_string(p.id[worst]) + " at " +
+  std::string worstOf(const dem::Model& grains) const {
+    const dem::Particles& p = grains.particles;
+    return (grains.time > 0.0 ? "at t = " + formatNumber(grains.time) + " s" : std::string("at the start")) +
+           ", the farthest by " + rounded(by) + " m (particle " + std::to_string(p.id[worst]) + " at " +
            placeText(p.x[worst]) + ")";
   }
 };
@@ -52,7 +54,7 @@ void lookAtDomain(Built& built, const Scene& scene) {
   if (!grains.domain) return;
   const AtFault found = outsideOf(*grains.domain, grains);
   if (found.count == 0) return;
-  const std::string text = found.who(grains.particles) + "outside of the domain " + found.worstOf(grains.particles);
+  const std::string text = found.who(grains.particles) + "outside of the domain " + found.worstOf(grains);
   if (grains.domain->policy != dem::EscapePolicy::remove)
     throw InputError(text, scene.domain->where, "make domain.box larger, or let \"escape\" be \"remove\"");
   built.notes.push_back("WARNING: " + text + ", and are removed at once: make domain.box larger.");
@@ -115,7 +117,7 @@ void requireBefore(const dem::Model& grains, const Scene& scene, std::size_t ite
       if (distance < 0.0 && !driven[i]) found.add(i, -distance);
     }
     if (found.count > 0)
-      throw InputError(found.who(p) + sideOf(scene.walls[item], wall) + found.worstOf(p), scene.walls[item].where,
+      throw InputError(found.who(p) + sideOf(scene.walls[item], wall) + found.worstOf(grains), scene.walls[item].where,
                        remedyFor(scene.walls[item], scene));
   }
 }
