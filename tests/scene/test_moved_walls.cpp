@@ -367,5 +367,25 @@ TEST(Changes, AddTheSameBytesHoweverOftenEnergiesWereAskedFor) {
   }
 }
 
+/// Where the grains lay at the start.
+TEST(Changes, OfWallsThatHaveGoneFarAreTakenUp) {
+  const Scene scene = sceneWith(R"("gravity": [0, 0, -10], )" + four + R"("walls": [)" + floorWall + "],",
+                                aRun + R"(, {"do": "run", "time": 0.1, "changes": {"walls": [
+          {"wall": "floor", "velocity": [0, 0, -5]}]}}, {"do": "run", "time": 0.1, "changes": {"walls": [
+          {"wall": "floor", "velocity": [0, 0, 0]}]}})");
+  Built whole = started(scene), rest = started(scene);
+  std::vector<StageStart> begun;
+  for (const std::size_t stage : {1U, 2U}) {
+    begun.push_back(startOf(whole));
+    begin(whole, scene, stage);
+    whole.run->advance(1000);
+  }
+  for (const std::size_t stage : {1U, 2U}) beginStage(rest, scene, stage, begun[stage - 1], Grains::follow);
+  rest.run->load(whole.run->save());
+  whole.run->advance(500);
+  rest.run->advance(500);
+  EXPECT_TRUE(whole.run->save() == rest.run->save());
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test

@@ -148,7 +148,7 @@ void beginStage(Built& built, const Scene& scene, std::size_t stage, const Stage
   if (!scene.stages[stage].changes) return;
   const Changes& changes = *scene.stages[stage].changes;
   coupling::CoupledRun& run = *built.run;
-  run.change([&] {
+  const auto act = [&] {
     run.grains.time = start.time;
     for (std::size_t w = 0; w < built.walls.size() && w < start.travels.size(); ++w)
       if (dem::WallServo* const servo = servoIn(run.grains, built.walls[w])) servo->travel = start.travels[w];
@@ -156,7 +156,9 @@ void beginStage(Built& built, const Scene& scene, std::size_t stage, const Stage
     if (grains == Grains::areThere) requireNoneBehind(built, scene, changes);
     if (changes.gravity) *built.changing.gravity = *changes.gravity;
     changeLoads(built, scene, changes, start.time);
-  });
+  };
+  // Walls that jump to where a state has them may pass grains that still lie as at the start.
+  grains == Grains::areThere ? run.change(act) : act();
 }
 
 void requireChanges(const Built& built, const Scene& scene) {
