@@ -155,7 +155,7 @@ TEST(KeptLoads, WhatCannotBeIsRefused) {
   expectParts(refused(servo + R"(, "velocity": [0, 0, 1])"), {"servo and a path", "walls.1", "surface_velocity"});
   expectParts(refused(R"("servo": {"keeps": "force", "force": 40, "axis": [0, 0, 0]})"), {"no length", "walls.1"});
   expectParts(refused(R"("servo": {"keeps": "pressure", "pressure": 40, "axis": [0, 0, 1]})"), {"\"area\"", "missing"});
-  expectParts(refusalOfRun(R"("walls": [)" + lidAt + servo + "}],"), {"no grains", "mass"});
+  expectParts(refusalOfRun(R"("walls": [)" + lidAt + servo + "}],"), {"no spheres", "mass"});
   expectParts(refusalOfRun(four + R"("walls": [{"shape": "box", "box": [[0, 0, 0], [1, 1, 1]], )" + servo + "}],"),
               {"box", "plane of its own"});
   expectParts(refusalOfRun(four + R"("periodic": {"box": [[0, 0, -1], [1, 1, 1]], "axes": ["x"]},)" +
