@@ -19,15 +19,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // ---- bonds
 
 void BondTerm::check(const Model& m) const {
-  if (bonds.size() == 0) return;
-  dem::check(bonds, m.particles);
-  for (const BodyTerm* term : m.terms.all<BodyTerm>()) {
-    const std::vector<int> body = bodyOfParticles(m.particles.size(), term->clumps);
-    for (std::size_t b = 0; b < bonds.size(); ++b)
-      if (const int i = body[at(bonds.bonds[b].i)]; i >= 0 && i == body[at(bonds.bonds[b].j)])
-        throw InputError("its ends are members of one clump", "bond " + std::to_string(b),
-                         "bond members of different clumps");
-  }
+  if (bonds.size() > 0) dem::check(bonds, m.particles);
 }
 
 namespace {

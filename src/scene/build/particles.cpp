@@ -65,16 +65,29 @@ dem::PackingRoom roomOf(const Target& to, const RandomPacking& packing) {
   return dem::roomInside(surfaceOf(from, geometry::ClosedPatches::turn, to.notes));
 }
 
-/// So many would fit if the packing is as dense as it was when it jammed.
-[[noreturn]] void refuseJammed(const RandomPacking& packing, const dem::PackingReport& report, double fraction) {
-  if (packing.number > 0) {
-    const double fit = std::floor(static_cast<double>(packing.number) * report.solidFraction / fraction);
-    throw InputError(
-        "the region holds about " + formatNumber(fit) + " such spheres, not " + std::to_string(packing.number), "",
-        "give a smaller number, smaller spheres or a larger region");
+/// The largest number of spheres that does not jam; 0 if one does.
+std::int64_t numberThatFits(const dem::Sizes& sizes, const geometry::Periodicity& space, dem::GrowthOptions settings) {
+  std::int64_t fits = 0, jams = settings.number;
+  while (jams - fits > 1) {
+    settings.number = fits + (jams - fits) / 2;
+    dem::PackingReport report;
+    dem::growPacking(sizes, space, settings, report);
+    (report.reached ? fits : jams) = settings.number;
   }
-  throw InputError("the packing jams at the solid fraction " + formatNumber(report.solidFraction), "",
-                   "give a solid_fraction below that");
+  return fits;
+}
+
+[[noreturn]] void refuseJammed(const dem::Sizes& sizes, const geometry::Periodicity& space,
+                               const dem::GrowthOptions& settings, const dem::PackingReport& report) {
+  if (settings.number == 0)
+    throw InputError("the packing jams at the solid fraction " + formatNumber(report.solidFraction), "",
+                     "give a solid_fraction below that");
+  constexpr std::int64_t few = 200;  // that are tried one by one; more are as dense as these were when they jammed
+  const double estimate = static_cast<double>(settings.number) * report.solidFraction / settings.solidFraction;
+  const std::string most = settings.number <= few ? std::to_string(numberThatFits(sizes, space, settings))
+                                                  : "about " + formatNumber(std::floor(estimate));
+  throw InputError("the region holds " + most + " such spheres, not " + std::to_string(settings.number), "",
+                   "give a smaller number, smaller spheres or a larger region");
 }
 
 void add(const Target& to, const RandomPacking& packing) {
@@ -94,15 +107,14 @@ void add(const Target& to, const RandomPacking& packing) {
                          " fit: give a smaller number, smaller spheres or a larger region");
   requireMemory(volume * wanted / dem::meanVolume(sizes), "spheres", BytesPer::grain,
                 "take larger ones, or a smaller box");
+  const dem::GrowthOptions settings{.solidFraction = wanted,
+                                    .number = packing.number,
+                                    .room = room,
+                                    .overlap = packing.overlap,
+                                    .seed = static_cast<std::uint64_t>(packing.seed)};
   dem::PackingReport report;
-  const dem::Packing spheres = dem::growPacking(sizes, space,
-                                                {.solidFraction = wanted,
-                                                 .number = packing.number,
-                                                 .room = room,
-                                                 .overlap = packing.overlap,
-                                                 .seed = static_cast<std::uint64_t>(packing.seed)},
-                                                report);
-  if (!report.reached) refuseJammed(packing, report, wanted);
+  const dem::Packing spheres = dem::growPacking(sizes, space, settings, report);
+  if (!report.reached) refuseJammed(sizes, space, settings, report);
   to.notes.push_back("Random packing of " + std::to_string(spheres.centre.size()) + " spheres: solid fraction " +
                      formatNumber(report.solidFraction) + ", largest overlap " + formatNumber(report.largestOverlap) +
                      " radii.");
