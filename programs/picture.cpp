@@ -46,11 +46,14 @@ void takeSize(const std::string& text, scene::PictureOptions& settings) {
 bool drawRun(int argc, char** argv) {
   std::string run, file;
   bool uncut = false;
+  int mode = 0;
   scene::PictureOptions settings;
   Options options("dovetail picture", "Draws a frame of a run as a PNG file, or all frames as a film, a GIF file.");
   options.text("RUN", run, "folder of a run with frames").require();
   options.flag("--film", settings.film, "all frames, as film.gif");
   options.integer("--frame N", settings.frame, -1000000, 1000000, "from 0; -1 is the last");
+  options.integer("--mode K", mode, 0, 1000,
+                  "a natural mode of the solids, from 1, in place of a frame; films show all");
   options.text("--out FILE", file, "RUN/picture.png or RUN/film.gif if not given");
   options.group("view");
   const Range turn = between(-360.0, 360.0), height = between(-90.0, 90.0);
@@ -80,6 +83,10 @@ bool drawRun(int argc, char** argv) {
   options.add("--solid-range A B", "ends of the solids' colours, SI units",
               [&](const std::string& text) { settings.solidRange = rangeIn(text, "--solid-range"); }, {});
   if (!options.parse(argc, argv)) return true;
+  if (mode > 0) {
+    settings.mode = mode;
+    options.refuseIdle("--frame", "with --mode", "leave one of them out");
+  }
   if (settings.film) options.refuseIdle("--frame", "with --film", "leave one of them out");
   options.refuseBoth("--cut", "--uncut");
   if (uncut) settings.cutAxis = "none";

@@ -126,12 +126,16 @@ void CoupledRun::change(const std::function<void()>& act) {
     return sum;
   };
   const double before = energy();
+  const Totals from = impl_->sums();
   act();
   grains.forcesOf = dem::Model::outdated;
   const bool refuses = std::exchange(grains.refusesUnstableSteps, false);
   start(impl_->dt, impl_->options);
   grains.refusesUnstableSteps = refuses;
   impl_->changed += energy() - before;
+  const Totals to = impl_->sums();
+  const Momenta added{to.momentum - from.momentum, to.angularMomentum - from.angularMomentum};
+  if (!(added.linear == Vec3{} && added.angular == Vec3{})) impl_->outside.given.give("changes", added);
   impl_->lookAtLimit();
 }
 

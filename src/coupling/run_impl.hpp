@@ -89,6 +89,9 @@ struct CoupledRun::Impl {
   void lagMacroStep();
   void rememberLoads();
   void requireApart(const char* when) const;
+  void requireLoadSteps(double time) const;
+  void beginLoadStep(bool first);
+  void endLoadStep(double time);
   void stopSolids();
   Momenta lateLoads() const;
   std::vector<NodalLoad> loadBefore;  ///< per solid: of the evaluation before the last; only with a lag

@@ -45,6 +45,11 @@ void archiveHead(Archive& archive, Head& head) {
           head.changed, head.particles);
 }
 
+template <class Archive>
+void archivePath(Archive& archive, fem::ParameterPath& path, double& loadFactor) {
+  archive(path.at, path.length, path.firstLength, path.lastMove, loadFactor);
+}
+
 void requireSame(bool same, const char* what) {
   if (!same)
     throw InputError(std::string("the state has other ") + what, "load", "load it into a run that is set up alike");
@@ -64,6 +69,8 @@ struct CoupledRun::Impl::State {
     ImpulseLedger outside;
     SolidStepper::StaticWork statics;
     fem::HeldLoad held;
+    fem::ParameterPath path;
+    double loadFactor = 0.0;
     bool stands = false;
   };
   Outside outside;
@@ -131,6 +138,7 @@ std::vector<char> CoupledRun::Impl::save() {
     const SolidStepper::StaticWork& works = solids[s]->statics;
     rest(works.loads, works.supports, works.dissipated, works.held, solids[s]->stands);
     solids[s]->held.save(rest);
+    archivePath(rest, solids[s]->path, solids[s]->loadFactor);
     archive(side.name, side.stepping == Stepping::implicitSteps, own.bytes(), rest.bytes());
   }
   outside.save(archive);
@@ -166,6 +174,7 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
     SolidStepper::StaticWork& works = saved.statics;
     others(works.loads, works.supports, works.dissipated, works.held, saved.stands);
     saved.held.load(others);
+    archivePath(others, saved.path, saved.loadFactor);
     requireSame(reader.atEnd() && others.atEnd(), "solids");
     requireSame(options.lag == Lag::none || saved.seen.size() == nodes, "solids");
   }
@@ -200,6 +209,8 @@ void CoupledRun::Impl::adopt(State state) {
     solids[s]->statics = state.solids[s].statics;
     solids[s]->stands = state.solids[s].stands;
     solids[s]->held = std::move(state.solids[s].held);
+    solids[s]->path = std::move(state.solids[s].path);
+    solids[s]->loadFactor = state.solids[s].loadFactor;
     solids[s]->macroLoad = std::move(state.solids[s].macroStep);
     if (options.lag == Lag::none) continue;
     loadBefore.push_back(std::move(state.solids[s].before));

@@ -8,6 +8,7 @@
 #include "dovetail/core/ledger.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/fem/solve/held_load.hpp"
+#include "dovetail/fem/solve/statics.hpp"
 
 namespace dovetail::coupling {
 
@@ -25,6 +26,8 @@ public:
   SolidSide side;
   double bookedBefore = 0.0;  ///< J, before the last start
   fem::HeldLoad held;         ///< what a static stage has yet to release
+  fem::ParameterPath path;    ///< of a static stage along arcs; its parameter is the load factor
+  double loadFactor = 0.0;    ///< of the last static stage
   struct StaticWork {
     double loads = 0.0, supports = 0.0, dissipated = 0.0, held = 0.0;  ///< J, in load steps
     int negativePivots = -1;                                           ///< of the tangent at the end of the last one
@@ -68,6 +71,8 @@ public:
   /// @throws NumericalError if there is none; the solid is then in the last one
   /// @return whether it is stable, or nobody knows
   bool loadStep(double after, double time);
+  /// Likewise, one arc on along the path, as long as the first of so many equal load steps.
+  bool followLoad(std::int64_t loadSteps);
 
   /// What the linear systems of its steps are going to take; nothing if there are none.
   virtual linalg::LinearForecast forecast() { return {}; }
@@ -92,6 +97,7 @@ protected:
   virtual const ImpulseLedger& ownImpulses() const = 0;
   /// v += dt/m f on the touched nodes, held components apart: these give it to the supports.
   void kickTouched(const NodalLoad& load, double dt);
+  void endLoadStep(const StaticWork& works, double heldBefore);
   void copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const;
   void carryOver(const EnergyLedger& own) {
     bookedBefore += own.booked();

@@ -2,6 +2,7 @@
 #include "dovetail/fem/solve/statics.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
@@ -74,7 +75,32 @@ bool SolidStepper::loadStep(double after, double time) {
       releaseAtOnce(model, held, options, before, after, smallestPart * (before - after), works);
     }
   }
-  statics.held += held.work() - worked;
+  endLoadStep(works, worked);
+  loadFactor = 1.0 - after;
+  return works.negativePivots <= 0;
+}
+
+bool SolidStepper::followLoad(std::int64_t loadSteps) {
+  const double worked = held.work();
+  StaticWork works;
+  if (held.isIdle()) {
+    path.at = 1.0;
+  } else {
+    const Lent lent(*model_, held);
+    path.set = [this](double factor) { held.release(1.0 - factor, 1.0 - factor, 0.0, 0.0); };
+    fem::ArcLengthOptions options{.firstStep = 1.0 / static_cast<double>(loadSteps),
+                                  .largestStep = std::abs(path.firstLength),
+                                  .smallestFraction = smallestPart,
+                                  .maxSteps = 1};
+    add(fem::followPath(*model_, path, 1.0, options), works);
+  }
+  endLoadStep(works, worked);
+  loadFactor = path.at;
+  return loadFactor < 1.0 || works.negativePivots <= 0;
+}
+
+void SolidStepper::endLoadStep(const StaticWork& works, double heldBefore) {
+  statics.held += held.work() - heldBefore;
   statics.loads += works.loads;
   statics.supports += works.supports;
   statics.dissipated += works.dissipated;
@@ -82,7 +108,6 @@ bool SolidStepper::loadStep(double after, double time) {
   stands = true;
   statics.supports += kineticEnergy();  // those that move do so at once
   side.outside.give("supports", fem::momentaOf(side.nodes(), *side.mass));
-  return works.negativePivots <= 0;
 }
 
 void CoupledRun::Impl::stopSolids() {
@@ -104,9 +129,28 @@ void CoupledRun::Impl::requireApart(const char* when) const {
                        "let load steps come before the particles, or bring all to rest together by relaxing");
 }
 
-std::vector<std::string> CoupledRun::loadStep(std::int64_t step, std::int64_t steps, double time) {
-  impl_->requireStarted("loadStep");
-  dem::close(grains);
+namespace {
+
+/// Calls act() for one of `steps`; where there is no equilibrium, the error says what a user can do.
+template <class Act>
+bool atStep(const SolidStepper& solid, std::int64_t step, std::int64_t steps, Act&& act) {
+  const std::string where = "\"" + solid.side.name + "\", load step " + std::to_string(step + 1) +
+                            (steps > 0 ? " of " + std::to_string(steps) : std::string());
+  const std::string remedy = std::string("the solid may buckle, yield throughout, or not be held: ") +
+                             (steps > 0 ? "take more load steps, follow its path by arcs, hold it, or relax it"
+                                        : "take more load steps, hold it, or relax it");
+  try {
+    return act();
+  } catch (const fem::NoEquilibrium& error) {
+    throw NumericalError("there is no equilibrium, " + error.reason, where, remedy);
+  } catch (const NumericalError& error) {
+    throw NumericalError(error.what(), where, remedy);
+  }
+}
+
+}  // namespace
+
+void CoupledRun::Impl::requireLoadSteps(double time) const {
   for (const auto* connector : grains.terms.all<Connector>())
     if (connector->constrains())
       throw InputError("load steps know no particles, and an overlap ties them to the solid", connector->name(),
@@ -114,38 +158,65 @@ std::vector<std::string> CoupledRun::loadStep(std::int64_t step, std::int64_t st
   if (time > 0.0 && grains.particles.size() > 0)
     throw InputError("time passes in load steps, and there are particles, which stand still", "loadStep",
                      "let no time pass, or leave the particles out");
-  Impl& run = *impl_;
-  if (step == 0) {
-    run.requireApart("before");
-    run.stopSolids();
+}
+
+void CoupledRun::Impl::beginLoadStep(bool first) {
+  if (first) {
+    requireApart("before");
+    stopSolids();
   }
+  for (const auto& solid : solids)
+    if (first)
+      solid->held.hold(*solid->side.model);
+    else if (solid->loadFactor < 1.0)
+      solid->stop();
+}
+
+void CoupledRun::Impl::endLoadStep(double time) {
+  grains.time = time;
+  sampled = true;
+  dem::findForces(grains);
+  constrainMacroStep();
+  rememberLoads();
+  sampled = false;
+  requireApart("after");
+}
+
+std::vector<std::string> CoupledRun::loadStep(std::int64_t step, std::int64_t steps, double time) {
+  impl_->requireStarted("loadStep");
+  dem::close(grains);
+  impl_->requireLoadSteps(time);
+  impl_->beginLoadStep(step == 0);
   const double until = grains.time + time, after = 1.0 - static_cast<double>(step + 1) / static_cast<double>(steps);
   std::vector<std::string> unstable;
-  for (const auto& solid : run.solids) {
-    if (step == 0)
-      solid->held.hold(*solid->side.model);
-    else
-      solid->stop();
-    try {
-      const bool stable = solid->loadStep(step + 1 == steps ? 0.0 : after, time > 0.0 ? until : solid->side.model->t);
-      if (!stable) unstable.push_back(solid->side.name);
-    } catch (const NumericalError& error) {
-      throw NumericalError(
-          error.what(),
-          "\"" + solid->side.name + "\", load step " + std::to_string(step + 1) + " of " + std::to_string(steps),
-          "the solid may buckle, yield throughout, or not be held: take more load steps, hold it, or "
-          "relax it");
-    }
+  for (const auto& solid : impl_->solids) {
+    const double to = time > 0.0 ? until : solid->side.model->t;
+    if (!atStep(*solid, step, steps, [&] { return solid->loadStep(step + 1 == steps ? 0.0 : after, to); }))
+      unstable.push_back(solid->side.name);
     if (step + 1 == steps) solid->held.end();
   }
-  grains.time = until;
-  run.sampled = true;
-  dem::findForces(grains);
-  run.constrainMacroStep();
-  run.rememberLoads();
-  run.sampled = false;
-  run.requireApart("after");
+  impl_->endLoadStep(until);
   return unstable;
 }
+
+std::vector<std::string> CoupledRun::followLoads(std::int64_t step, std::int64_t loadSteps) {
+  impl_->requireStarted("followLoads");
+  dem::close(grains);
+  impl_->requireLoadSteps(0.0);
+  impl_->beginLoadStep(step == 0);
+  std::vector<std::string> unstable;
+  for (const auto& solid : impl_->solids) {
+    if (step == 0) solid->path = {}, solid->loadFactor = 0.0;
+    if (solid->loadFactor == 1.0) continue;
+    if (!atStep(*solid, step, 0, [&] { return solid->followLoad(loadSteps); })) unstable.push_back(solid->side.name);
+    if (solid->loadFactor < 1.0) continue;
+    solid->held.end();
+    solid->path = {};
+  }
+  impl_->endLoadStep(grains.time);
+  return unstable;
+}
+
+double CoupledRun::loadFactor(std::size_t k) const { return impl_->solids.at(k)->loadFactor; }
 
 }  // namespace dovetail::coupling

@@ -240,6 +240,27 @@ TEST(ReportVerb, WritesAPageOnARunWithItsNumbers) {
 }
 
 #if WITH_PICTURES
+TEST(PictureVerb, DrawsNaturalModes) {
+  const ScratchFolder folder;
+  const std::string out = (folder / "out").string(), scene = std::string(SCENES) + "/frequencies.json";
+  ASSERT_EQ(runProgram({"run", scene, "--set", "solids.0.cells=[4, 1, 1]", "--out", out}).code, 0);
+  const std::filesystem::directory_iterator modes(folder / "out/modes_beam");
+  EXPECT_EQ(std::distance(begin(modes), end(modes)), 6);
+  const Outcome first = runProgram({"picture", out, "--mode", "1"});
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.out.find("mode 1; solids: shape"), std::string::npos) << first.out;
+  const std::string one = readText(folder / "out/picture.png");
+  ASSERT_EQ(runProgram({"picture", out, "--mode", "3"}).code, 0);
+  EXPECT_NE(readText(folder / "out/picture.png"), one);
+  EXPECT_EQ(runProgram({"picture", out, "--mode", "1", "--film"}).code, 0);
+  const Outcome seventh = runProgram({"picture", out, "--mode", "7"});
+  EXPECT_EQ(seventh.code, 2);
+  EXPECT_NE(seventh.err.find("from 1 to 6"), std::string::npos) << seventh.err;
+  const Bounce bounce;
+  ASSERT_EQ(runProgram({"run", bounce.file, "--set", "output.frames=0.1 ms", "--out", bounce.out}).code, 0);
+  EXPECT_NE(runProgram({"picture", bounce.out, "--mode", "1"}).err.find("stage \"do\": \"modes\""), std::string::npos);
+}
+
 TEST(PictureVerb, DrawsFramesAndFilmsAndReplacesItsOwnFilesOnly) {
   const Bounce bounce;
   ASSERT_EQ(runProgram({"run", bounce.file, "--set", "output.frames=0.1 ms", "--out", bounce.out}).code, 0);

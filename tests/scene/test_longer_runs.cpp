@@ -70,6 +70,36 @@ TEST(LongerRuns, HaveTheBytesOfThoseThatWereLongFromTheStart) {
   expectSame(broken, whole);
 }
 
+/// Walls, grains, planes and nodes move by functions of time, whose velocities and integrals are found by differences.
+TEST(LongerRuns, MoveBySameFunctionsWhateverTheirEnd) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP() << "expressions need muParser";
+  const ScratchFolder whole, done;
+  io::test::writeText(done / "moved.json", R"json({
+    "let": {"time": 0.05},
+    "contact": {"law": "linear", "stiffness": 1e4, "restitution": 0.5, "friction": 0.3},
+    "particles": [{"from": "list", "density": 2000, "name": "driven",
+      "spheres": [{"at": [0.0, 0, 0.0999], "radius": 0.05}, {"at": [0.11, 0, 0.0999], "radius": 0.05}]},
+      {"from": "list", "density": 2000, "spheres": [{"at": [0.05, 0, 0.186], "radius": 0.05}]}],
+    "drives": [{"group": "driven", "displacement": [0, "0.01*sin(40*t)", 0]}],
+    "walls": [{"shape": "plane", "point": [0, 0, 0.05], "normal": [0, 0, 1], "displacement": ["0.01*sin(90*t)", 0, "0.002*sin(30*t)"]},
+      {"shape": "plane", "point": [0.05, 0, 0.235], "normal": [0, 0, -1], "velocity": [0, 0, "-0.02*cos(20*t)"]}],
+    "solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 3], "box": [[1, 0, 0], [1.05, 0.05, 0.1]],
+      "gravity": false, "stepping": "implicit",
+      "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},
+      "supports": [{"on": "z-"}, {"on": "z+", "velocity": ["0.1*cos(50*t)", 0, 0]}],
+      "planes": [{"on": "y+", "point": [1, 0.05, 0], "normal": [0, -1, 0], "displacement": [0, "-0.001*sin(60*t)", 0]}]}],
+    "steps": {"dt": 1e-4}, "stages": [{"do": "run", "time": "time"}],
+    "output": {"series": 1e-3, "checkpoints": 0.01}})json");
+  const auto words = [&](const std::string& time, const ScratchFolder& folder) {
+    return Words{"run", (done / "moved.json").string(), "--set", "time=" + time, "--out", (folder / "out").string()};
+  };
+  ASSERT_EQ(runProgram(words("0.05", whole)).code, 0);
+  ASSERT_EQ(runProgram(words("0.023", done)).code, 0);
+  ASSERT_EQ(runProgram({"resume", (done / "out").string(), "--until", "0.05"}).code, 0);
+  for (const char* const file : {"checkpoint.state", "series.csv"})
+    EXPECT_TRUE(io::test::readText(whole / "out" / file) == io::test::readText(done / "out" / file)) << file;
+}
+
 TEST(LongerRuns, BeginAfterWhatBroughtToRest) {
   const auto stages = [](const std::string& time) {
     return Words{"stages=[{\"do\": \"relax\", \"macro_steps\": 60}, {\"do\": \"run\", \"time\": " + time + "}]"};

@@ -45,7 +45,7 @@ double residualOf(Built& built) { return std::abs(built.run->ledger().residual()
 
 /// Starts a stage as a run does.
 void begin(Built& built, const Scene& scene, std::size_t stage) {
-  beginStage(built, scene, stage, startOf(built), Grains::areThere);
+  beginStage(built, scene, stage, startOf(built, scene, stage), Grains::areThere);
 }
 
 class KeptLoadsOfSteps : public testing::TestWithParam<const char*> {};
@@ -246,7 +246,7 @@ TEST_P(StageChangesOfSteps, BooksCloseAndRunsGoOnToTheSameBytes) {
   std::vector<char> state;
   double most = 0.0;
   for (std::size_t stage = 0; stage < 3; ++stage) {
-    starts.push_back(startOf(whole));
+    starts.push_back(startOf(whole, scene, stage));
     const double before = whole.run->ledger().residual();
     beginStage(whole, scene, stage, starts.back(), Grains::areThere);
     EXPECT_NEAR(whole.run->ledger().residual(), before, 1e-12);
@@ -261,7 +261,7 @@ TEST_P(StageChangesOfSteps, BooksCloseAndRunsGoOnToTheSameBytes) {
   for (std::size_t stage = 0; stage < 2; ++stage) beginStage(resumed, scene, stage, starts[stage], Grains::follow);
   resumed.run->load(state);
   resumed.run->advance(part / 2);
-  EXPECT_EQ(startOf(resumed).travels, starts[2].travels);
+  EXPECT_EQ(startOf(resumed, scene, 2).travels, starts[2].travels);
   beginStage(resumed, scene, 2, starts[2], Grains::areThere);
   resumed.run->advance(part);
   EXPECT_TRUE(whole.run->save() == resumed.run->save());
@@ -374,7 +374,7 @@ TEST(Changes, OfWallsThatHaveGoneFarAreTakenUp) {
   Built whole = started(scene), rest = started(scene);
   std::vector<StageStart> begun;
   for (const std::size_t stage : {1U, 2U}) {
-    begun.push_back(startOf(whole));
+    begun.push_back(startOf(whole, scene, stage));
     begin(whole, scene, stage);
     whole.run->advance(1000);
   }

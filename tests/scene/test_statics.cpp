@@ -1,5 +1,6 @@
 // Load steps of solids, and what they are made with: regions, turning supports, loads of place and time, planes.
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "../io/scratch_folder.hpp"
@@ -158,6 +159,58 @@ TEST(SceneStatics, WithoutEquilibriumTheLoadStepIsNamed) {
     FAIL();
   } catch (const NumericalError& error) {
     expectParts(error.what(), {"\"bar\"", "load step 1 of 10"});
+  }
+}
+
+/// The path of a bar that has no limit point leads to where load steps do.
+TEST(SceneArcLength, EndsWhereLoadStepsEnd) {
+  const std::string keys = R"("loads": [{"on": "z+", "type": "traction", "traction": [100, 0, 2e5]}])";
+  const Scene scene = staticScene(bar(keys), R"({"do": "statics", "load_steps": 8, "control": "arc-length"})");
+  Built path = started(scene), steps = loaded(staticScene(bar(keys), R"({"do": "statics"})"));
+  EXPECT_EQ(path.run->loadFactor(0), 0.0);
+  double before = 0.0;
+  for (int k = 0; path.run->loadFactor(0) < 1.0; ++k) {
+    ASSERT_LT(k, 30);
+    path.run->followLoads(k, 8);
+    EXPECT_GT(path.run->loadFactor(0), before);
+    before = path.run->loadFactor(0);
+    if (k == 0) {
+      EXPECT_NEAR(before, 0.125, 0.02);
+    }
+  }
+  EXPECT_EQ(path.run->loadFactor(0), 1.0);
+  EXPECT_LT(norm(displacementAt(path, {1, 1, 4}) - displacementAt(steps, {1, 1, 4})), 1e-9);
+  EXPECT_LT(std::abs(path.run->ledger().residual()), 2e-2 * channel(path, "bar: load steps"));
+  EXPECT_EQ(path.run->time(), 0.0);
+}
+
+/// An unloaded solid is there at once.
+TEST(SceneArcLength, WithoutALoadThereIsNoPath) {
+  Built built = started(staticScene(bar("\"gravity\": true"), R"({"do": "statics", "control": "arc-length"})"));
+  EXPECT_TRUE(built.run->followLoads(0, 10).empty());
+  EXPECT_EQ(built.run->loadFactor(0), 1.0);
+}
+
+TEST(SceneArcLength, WhatCannotBeIsRefused) {
+  expectParts(refusalOf(staticScene(bar(pulled), R"({"do": "statics", "time": 1, "control": "arc-length"})")),
+              {"time never does", "leave \"time\" out", "stages.0"});
+  expectParts(refusalOf(staticScene(bar(pulled + R"(, "linear_solver": "conjugate-gradients")"),
+                                    R"({"do": "statics", "control": "arc-length"})")),
+              {"conjugate gradients", "\"bar\"", "stages.0"});
+}
+
+/// Nothing that a user of scenes cannot write.
+TEST(SceneStatics, WithoutEquilibriumTheMessageSaysWhatCanBeDone) {
+  std::string keys = bar(R"("loads": [{"on": "z+", "type": "traction", "traction": [0, 0, 2e3]}])");
+  const std::string elastic = R"("law": "St-Venant-Kirchhoff")";
+  keys.replace(keys.find(elastic), elastic.size(), R"("law": "J2", "yield_stress": 1e3)");
+  try {
+    loaded(staticScene(keys, R"({"do": "statics"})"));
+    FAIL();
+  } catch (const NumericalError& error) {
+    expectParts(error.what(), {"there is no equilibrium", "\"bar\"", "load step ", "take more load steps"});
+    for (const char* const name : {"followPath", "solveStatics", "firstStep"})
+      EXPECT_EQ(std::string(error.what()).find(name), std::string::npos) << error.what();
   }
 }
 
@@ -338,6 +391,70 @@ TEST(SceneModes, ABuiltBarRefusesWhatHasNone) {
 }
 
 #if WITH_EXPRESSIONS
+/// The limit of a shallow arch and its least load behind it (Fung & Kaplan 1952), less what the pins give way.
+TEST(SceneArcLength, LeadsAnArchThroughItsSnap) {
+  const Scene scene = readScene(std::filesystem::path(SCENES) / "arch.json");
+  Built whole = started(scene);
+  const std::size_t crown = nodeAt(whole, {0.5, 0, 0.03});
+  double limit = 0.0, least = 1.0, sunk = 0.0;
+  bool passed = false;
+  for (int k = 0; whole.run->loadFactor(0) < 1.0; ++k) {
+    ASSERT_LT(k, 400);
+    whole.run->followLoads(k, 20);
+    const double factor = whole.run->loadFactor(0);
+    passed = passed || factor < limit;
+    if (!passed) limit = factor;
+    if (passed) least = std::min(least, factor);
+    const double u = whole.run->solid(0).nodes().u[crown].z;
+    EXPECT_LT(u, sunk);
+    sunk = u;
+  }
+  EXPECT_NEAR(limit, 0.4999, 0.02 * 0.4999);
+  EXPECT_NEAR(least, -0.1713, 0.05 * 0.1713);
+  EXPECT_NEAR(sunk, -66.41e-3, 0.002 * 66.41e-3);
+  EXPECT_LT(std::abs(whole.run->ledger().residual()), 1e-3 * channel(whole, "arch: elements"));
+  // In the middle of the snap, from a state.
+  Built first = started(scene), rest = started(scene);
+  for (int k = 0; k < 60; ++k) first.run->followLoads(k, 20);
+  EXPECT_LT(first.run->loadFactor(0), 0.45);
+  rest.run->load(first.run->save());
+  for (int k = 60; k < 70; ++k) first.run->followLoads(k, 20), rest.run->followLoads(k, 20);
+  EXPECT_TRUE(first.run->save() == rest.run->save());
+}
+
+/// σ_y + (C/γ) (1 − exp(−γ ε_p)), in 400 implicit steps.
+TEST(SceneMaterials, RecoveryLetsTheBackStressSaturate) {
+  std::string keys = bar("\"formulation\": \"enhanced\"", R"--({"on": "x-", "components": ["x"]},
+        {"on": "y-", "components": ["y"]}, {"on": "z-", "components": ["z"]},
+        {"on": "z+", "components": ["z"], "displacement": [0, 0, "0.02*t"]})--");
+  const std::string elastic = R"("law": "St-Venant-Kirchhoff", "youngs_modulus": 1e6)";
+  keys.replace(
+      keys.find(elastic), elastic.size(),
+      R"("law": "J2", "youngs_modulus": 1e9, "yield_stress": 1e6, "kinematic_modulus": 1e9, "recovery": 1000)");
+  Built built = loaded(staticScene(keys, R"({"do": "statics", "load_steps": 400, "time": 1})"));
+  double force = 0.0;
+  const coupling::Reactions reactions = built.run->reactions(0);
+  for (const int n : built.meshes[0].nodeSets.at("z+")) force += reactions.supports[static_cast<std::size_t>(n)].z;
+  double stress = 2e6;  // the fixed point of σ = σ_y + (C/γ) (1 − exp(−γ (ε − σ/E)))
+  for (int k = 0; k < 100; ++k) stress = 1e6 + 1e6 * (1.0 - std::exp(-1000.0 * (std::log(1.005) - stress / 1e9)));
+  EXPECT_NEAR(force / stress, 1.0, 0.01);
+  EXPECT_LT(force, 0.98 * (1e6 + 1e9 * 2e-3));  // that of linear hardening
+}
+
+/// A plane that pushes a bar and slides along it: Coulomb's law, and the pressure of the springs in series.
+TEST(ScenePlanes, MoveAndRub) {
+  const std::string plane = R"--("planes": [{"on": "z-", "point": [0, 0, 0], "normal": [0, 0, 1], "stiffness": 1e8,
+      "friction": 0.01, "displacement": ["0.05*t", 0, "1e-3*t"]}])--";
+  Built built = loaded(staticScene(bar(plane, R"({"on": "z+"})"), R"({"do": "statics", "time": 1})"));
+  Vec3 force;
+  for (const Vec3& f : built.run->reactions(0).supports) force += f;
+  EXPECT_NEAR(force.z, -1e-3 / (4.0 / 1e6 + 1.0 / 1e8), 1e-3 * 250.0);
+  EXPECT_NEAR(force.x / force.z, 0.01, 1e-6);
+  EXPECT_NEAR(force.y, 0.0, 1e-6);
+  EXPECT_GT(channel(built, "bar: dissipated in load steps"), 0.9 * 2.5 * 0.05 / 2.0);
+  EXPECT_LT(std::abs(built.run->ledger().residual()), 2e-2 * channel(built, "bar: dissipated in load steps"));
+}
+
 /// σ_y + C ε_p on the way up; on the way back it yields after twice σ_y, where isotropic hardening would not yet.
 TEST(SceneMaterials, KinematicHardeningAndYieldCurves) {
   const auto stressAt = [](double time, const std::string& hardening) {

@@ -162,13 +162,15 @@ std::optional<MeshThickness> thicknessAt(const Walker& walker, const Walker::Sid
                       .normal = -normalized(outwards),
                       .face = face,
                       .opposite = face,
-                      .area = norm(outwards)};
+                      .area = norm(outwards),
+                      .elements = {}};
   const auto line = walker.walk(side.first, place.X, place.normal);
   if (!line || line->length == 0.0) return std::nullopt;
   place.opposite = walker.faceAt(line->end.first, line->end.second);
   if (dot(walker.areaOf(place.opposite), place.normal) < 0.866 * norm(walker.areaOf(place.opposite)))
     return std::nullopt;
   place.thickness = line->length;
+  for (const auto& [where, element] : line->left) place.elements.push_back(element);
   place.layers = line->length / line->meanExtent();
   const double half = 0.497 * line->length;  // no layer ends there in regular meshes
   const auto middle = std::ranges::find_if(line->left, [&](const auto& end) { return end.first > half; });

@@ -20,11 +20,14 @@ using detail::normOf;
 /// The next point of a path: unknowns are u and t, and the length of the way since the last equilibrium is given.
 class PathStep : public detail::NewtonProblem {
 public:
-  PathStep(Equilibrium& equilibrium, const ArcLengthOptions& options, double tEnd)
+  /// @param path  null: the parameter is the time
+  PathStep(Equilibrium& equilibrium, const ArcLengthOptions& options, const ParameterPath* path, double tEnd)
       : equilibrium_(equilibrium),
         options_(options),
         model_(equilibrium.model()),
-        tStart_(model_.t),
+        path_(path),
+        at_(path ? path->at : model_.t),
+        tStart_(path ? 0.0 : model_.t),
         tEnd_(tEnd),
         rate_(model_.nodes.u.size()),
         moved_(rate_.size()) {}
@@ -39,7 +42,7 @@ public:
 
   /// What a step of the given way and time dissipates if all of it is damage, J.
   double dissipation(std::span<const Vec3> way, double time) const {
-    return 0.5 * (model_.t * innerProduct(way, loadRate_) - time * innerProduct(from_, loadRate_));
+    return 0.5 * (at_ * innerProduct(way, loadRate_) - time * innerProduct(from_, loadRate_));
   }
 
   /// From the present equilibrium by the tangent.
@@ -54,8 +57,18 @@ public:
     for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = change * rate_[n];
     expected_ = std::abs(length(moved_));
     goal_ = spending ? options_.dissipation : byDisplacement() ? signedLength : std::abs(signedLength);
-    t_ = model_.t + change;
+    t_ = at_ + change;
     return t_;
+  }
+  /// The parameter in the present equilibrium.
+  double at() const { return at_; }
+  void arrive(double t) { at_ = t; }
+  /// The time at a value of the parameter.
+  double timeAt(double t) const { return path_ ? model_.t : t; }
+  /// Forces are asked for at this value of the parameter from now on.
+  void aim(double t) {
+    if (path_) path_->set(t);
+    equilibrium_.aim({timeAt(t), 0.0});
   }
   /// Whether the way to the present state is much longer than the tangent said.
   bool strays() const {
@@ -66,7 +79,7 @@ public:
   double t() const { return t_; }
   /// Puts the model on the way at time t by interpolation.
   void cutAt(double t) {
-    const double fraction = (t - model_.t) / (t_ - model_.t);
+    const double fraction = (t - at_) / (t_ - at_);
     for (Vec3& value : moved_) value *= fraction;
     t_ = t;
     place();
@@ -90,8 +103,8 @@ private:
   bool byDisplacement() const { return options_.node >= 0; }
   void place() {
     for (std::size_t n = 0; n < from_.size(); ++n) model_.nodes.u[n] = from_[n] + moved_[n];
-    equilibrium_.dofs().apply(t_, model_.nodes.u);
-    equilibrium_.aim({t_, 0.0});
+    equilibrium_.dofs().apply(timeAt(t_), model_.nodes.u);
+    aim(t_);
   }
   /// δt such that `way` + δt rate has the length or the dissipation asked for; not finite if there is none.
   double change(std::span<const Vec3> way) const;
@@ -99,7 +112,8 @@ private:
   Equilibrium& equilibrium_;
   const ArcLengthOptions& options_;
   Model& model_;
-  double tStart_, tEnd_;
+  const ParameterPath* path_;
+  double at_, tStart_, tEnd_;
   double t_ = 0.0, goal_ = 0.0, expected_ = 0.0, tBefore_ = 0.0, timeIncrement_ = 0.0;
   bool spending_ = false;
   std::vector<Vec3> from_, rate_, moved_, movedBefore_, increment_;
@@ -112,7 +126,7 @@ bool PathStep::findRate(double t) {
   const double later = t <= tEnd_ ? std::min(t + h, tEnd_) : t + h,
                earlier = t >= tStart_ ? std::max(t - h, tStart_) : t - h;
   const auto forcesAt = [&](double time) {
-    equilibrium_.aim({time, 0.0});
+    aim(time);
     equilibrium_.evaluate();
     return std::vector<Vec3>(equilibrium_.forces().begin(), equilibrium_.forces().end());
   };
@@ -122,8 +136,8 @@ bool PathStep::findRate(double t) {
   std::vector<double> push(equilibrium_.dofs().size()), back(push.size());
   equilibrium_.dofs().reduce(loadRate_, push);
   std::vector<Vec3> ahead = model_.nodes.u, behind = model_.nodes.u, pulled(ahead.size());
-  equilibrium_.dofs().apply(later, ahead);
-  equilibrium_.dofs().apply(earlier, behind);
+  equilibrium_.dofs().apply(timeAt(later), ahead);
+  equilibrium_.dofs().apply(timeAt(earlier), behind);
   for (std::size_t n = 0; n < ahead.size(); ++n) rate_[n] = (ahead[n] - behind[n]) / (later - earlier);
   forcesAt(t);
   if (!equilibrium_.factor()) return false;
@@ -136,7 +150,7 @@ bool PathStep::findRate(double t) {
 }
 
 double PathStep::change(std::span<const Vec3> way) const {
-  if (spending_) return (goal_ - dissipation(way, t_ - model_.t)) / dissipation(rate_, 1.0);
+  if (spending_) return (goal_ - dissipation(way, t_ - at_)) / dissipation(rate_, 1.0);
   if (byDisplacement()) return (goal_ - length(way)) / length(rate_);
   const double a = innerProduct(rate_, rate_), b = innerProduct(rate_, way), c = innerProduct(way, way) - goal_ * goal_;
   const double root = std::sqrt(b * b - a * c), first = (-b + root) / a, second = (-b - root) / a;
@@ -190,11 +204,12 @@ public:
     }
     return attempt(signedLength, spending, false);
   }
-  double t() const { return now_.t; }
+  double t() const { return t_; }
 
 private:
   NewtonResult attempt(double signedLength, bool spending, bool atEnd) {
     bool started = false;
+    now_.t = equilibrium_.model().t;
     return detail::attemptStep(equilibrium_.model(), now_, options_.maxAugmentations, [&] {
       if (!started) path_.start(signedLength, spending);
       if (!started && atEnd) path_.cutAt(tEnd_);
@@ -202,8 +217,8 @@ private:
       NewtonResult result;
       if (!atEnd) {
         result = detail::newton(path_, {options_.newton.maxIterations, detail::LineSearch::never});
-        now_.t = path_.t();
-        if (!result.failure.empty() || now_.t <= tEnd_) return result;
+        arrive(path_.t());
+        if (!result.failure.empty() || t_ <= tEnd_) return result;
         path_.cutAt(tEnd_);
         atEnd = true;
       }
@@ -212,8 +227,8 @@ private:
   }
   /// Equilibrium at tEnd, on the way that the path takes there.
   NewtonResult settle(int iterationsBefore) {
-    now_.t = tEnd_;
-    equilibrium_.aim(now_);
+    arrive(tEnd_);
+    path_.aim(tEnd_);
     NewtonResult result = detail::newton(equilibrium_, detail::policyOf(options_.newton));
     result.iterations += iterationsBefore;
     if (result.failure.empty() && path_.strays())
@@ -221,18 +236,21 @@ private:
     return result;
   }
 
+  void arrive(double t) {
+    t_ = t;
+    now_.t = path_.timeAt(t);
+  }
+
   Equilibrium& equilibrium_;
   PathStep& path_;
   const ArcLengthOptions& options_;
-  double tEnd_;
+  double tEnd_, t_ = 0.0;
   Instant now_;
 };
 
-}  // namespace
-
-StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& options, const StaticObserver& observer) {
-  validate(options, model);
-  detail::requireLater(tEnd, model, "followPath");
+/// @param given  null: the parameter is the time
+StaticReport follow(Model& model, ParameterPath* given, double end, const ArcLengthOptions& options,
+                    const StaticObserver& observer) {
   const auto start = std::chrono::steady_clock::now();
   NewtonOptions newton = options.newton;
   newton.linear.method = linalg::LinearMethod::direct;  // iterations tell no negative pivots
@@ -240,56 +258,79 @@ StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& optio
   if (options.dissipation > 0.0 && equilibrium.dofs().hasMotion())
     throw InputError("dissipation is that of loads alone, but there is prescribed motion", "ArcLengthOptions",
                      "set dissipation to 0, or load the body by forces");
+  PathStep path(equilibrium, options, given, end);
+  PathTrial trial(equilibrium, path, options, end);
+  if (!path.findRate(path.at())) throw NoEquilibrium("the tangent is singular", "followPath", "hold the model");
   StaticReport report;
   report.storedBefore = storedEnergy(model, {model.t, 0.0});
-  PathStep path(equilibrium, options, tEnd);
-  PathTrial trial(equilibrium, path, options, tEnd);
-  if (!path.findRate(model.t)) throw NumericalError("the tangent is singular", "followPath", "hold the model");
-  const double firstLength = options.firstStep * path.length(path.rate());
-  if (firstLength == 0.0)
-    throw NumericalError("nothing moves with t", "followPath",
-                         "give loads that are functions of t, and a component that moves if there is a node");
-  const double largest = options.largestStep > 0.0 ? options.largestStep : 8.0 * std::abs(firstLength);
-  double length = std::min(std::abs(firstLength), largest), sense = firstLength < 0.0 ? -1.0 : 1.0;
+  ParameterPath own;
+  ParameterPath& way = given ? *given : own;
+  const bool begins = way.firstLength == 0.0;
+  if (begins) way.firstLength = options.firstStep * path.length(path.rate());
+  if (way.firstLength == 0.0)
+    throw NoEquilibrium("nothing moves with t", "followPath",
+                        "give loads that are functions of t, and a component that moves if there is a node");
+  const double first = std::abs(way.firstLength),
+               largest = options.largestStep > 0.0 ? options.largestStep : 8.0 * first;
+  way.length = std::min(begins ? first : way.length, largest);
+  double sense = way.firstLength < 0.0 ? -1.0 : 1.0;
   bool spending = false;
-  std::vector<Vec3> lastMove;
-  while (static_cast<int>(report.steps.size()) < options.maxSteps && model.t < tEnd) {
+  while (static_cast<int>(report.steps.size()) < options.maxSteps && path.at() < end) {
     const std::vector<Vec3> u0 = model.nodes.u, f0(equilibrium.forces().begin(), equilibrium.forces().end()),
                             loads0(equilibrium.loads().begin(), equilibrium.loads().end());
-    if (!lastMove.empty() && options.node < 0) sense = innerProduct(path.rate(), lastMove) >= 0.0 ? 1.0 : -1.0;
-    const NewtonResult result = trial.advance(sense * length, spending);
+    if (!way.lastMove.empty() && options.node < 0) sense = innerProduct(path.rate(), way.lastMove) >= 0.0 ? 1.0 : -1.0;
+    const NewtonResult result = trial.advance(sense * way.length, spending);
     if (!result.failure.empty() && spending) {
       spending = false;
-      if (path.findRate(model.t)) continue;
+      if (path.findRate(path.at())) continue;
     }
     if (!result.failure.empty()) {
-      length *= 0.4;
+      way.length *= 0.4;
       ++report.cuts;
-      if (length < options.smallestFraction * std::abs(firstLength) || !path.findRate(model.t)) {
+      if (way.length < options.smallestFraction * first || !path.findRate(path.at())) {
         model.nodes.f = f0;
-        throw NumericalError(result.failure, "followPath, t = " + formatNumber(model.t) + " s",
-                             "give smaller steps or a finer mesh");
+        throw NoEquilibrium(result.failure, "followPath, t = " + formatNumber(path.at()) + " s",
+                            "give smaller steps or a finer mesh");
       }
       continue;
     }
-    const Instant now{trial.t(), 0.0};
     detail::bookWork(equilibrium, f0, loads0, u0, report);
-    detail::acceptTerms(model, now, report);
-    lastMove.resize(u0.size());
-    for (std::size_t n = 0; n < u0.size(); ++n) lastMove[n] = model.nodes.u[n] - u0[n];
-    if (spending) length = std::min(largest, std::abs(path.length(lastMove)));
-    spending = options.dissipation > 0.0 && path.dissipation(lastMove, now.t - model.t) >= 0.999 * options.dissipation;
-    model.t = now.t;
+    detail::acceptTerms(model, {path.timeAt(trial.t()), 0.0}, report);
+    way.lastMove.resize(u0.size());
+    for (std::size_t n = 0; n < u0.size(); ++n) way.lastMove[n] = model.nodes.u[n] - u0[n];
+    if (spending) way.length = std::min(largest, std::abs(path.length(way.lastMove)));
+    spending = options.dissipation > 0.0 &&
+               path.dissipation(way.lastMove, trial.t() - path.at()) >= 0.999 * options.dissipation;
+    path.arrive(trial.t());
+    way.at = path.at();
+    if (!given) model.t = path.at();
     report.iterations += result.iterations;
-    const bool regular = path.findRate(now.t);
-    report.steps.push_back({now.t, result.iterations, result.residual, equilibrium.negativePivots(), result.tolerance});
-    if (!regular || (observer && !observer(model, report.steps.back()))) break;
+    const bool regular = path.findRate(path.at());
+    report.steps.push_back(
+        {path.at(), result.iterations, result.residual, equilibrium.negativePivots(), result.tolerance});
     const double growth = std::sqrt(static_cast<double>(options.iterationTarget) / std::max(1, result.iterations));
-    length = std::min(largest, length * std::clamp(growth, 0.5, 2.0));
+    way.length = std::min(largest, way.length * std::clamp(growth, 0.5, 2.0));
+    if (!regular || (observer && !observer(model, report.steps.back()))) break;
   }
   model.nodes.f.assign(equilibrium.forces().begin(), equilibrium.forces().end());
   detail::finishReport(equilibrium, start, report);
   return report;
+}
+
+}  // namespace
+
+StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& options, const StaticObserver& observer) {
+  validate(options, model);
+  detail::requireLater(tEnd, model, "followPath");
+  return follow(model, nullptr, tEnd, options, observer);
+}
+
+StaticReport followPath(Model& model, ParameterPath& path, double end, const ArcLengthOptions& options,
+                        const StaticObserver& observer) {
+  validate(options, model);
+  if (!path.set || !(path.at < end))
+    throw InputError("the path has no parameter, or has come to its end", "followPath", "give one below the end");
+  return follow(model, &path, end, options, observer);
 }
 
 }  // namespace dovetail::fem

@@ -22,6 +22,10 @@ void HeldLoad::release(double before, double after, double from, double to) {
   before_ = before, after_ = after, from_ = from, to_ = to;
 }
 
+bool HeldLoad::isIdle() const {
+  return std::ranges::all_of(force_, [](const Vec3& f) { return f == Vec3{}; });
+}
+
 double HeldLoad::factor(double t) const {
   if (!(to_ > from_)) return after_;
   return before_ + std::clamp((t - from_) / (to_ - from_), 0.0, 1.0) * (after_ - before_);

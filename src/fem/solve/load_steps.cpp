@@ -79,8 +79,8 @@ private:
       why += "; " + result.failure;
     }
     showForces();
-    throw NumericalError(why, words_.name + ", " + when(now.t),
-                         "the last equilibrium is at " + when(model_.t) + "; " + words_.remedy);
+    throw NoEquilibrium(why, words_.name + ", " + when(now.t),
+                        "the last equilibrium is at " + when(model_.t) + "; " + words_.remedy);
   }
   void accept(const Instant& now, const NewtonResult& result, bool byMotion) {
     model_.t = now.t;

@@ -126,20 +126,20 @@ void requireNearAxis(const dem::Model& grains, const std::vector<std::int64_t>& 
 }
 
 dem::DriveTerm rigidDrive(const dem::Model& grains, const Drive& drive, const std::vector<std::int64_t>& ids,
-                          const Scene& scene) {
+                          const Scene& scene, const StepOf& step) {
   if (!isConstant(drive.spin) || norm(constantOf(drive.spin)) > 0.0)
     throw InputError("both a spin and a turn are given", "",
                      "leave one out: with a turn, grains spin with the group; with a spin, each about its own centre");
   const Vec3 own = centreOf(grains, ids), point = drive.turn ? drive.turn->point.value_or(own) : own;
-  dem::PrescribedMotion motion = motionOf(drive, {point, {}, {}, {}}, own, 0.0, scene);
+  dem::PrescribedMotion motion = motionOf(drive, {point, {}, {}, {}}, own, 0.0, scene, step);
   requireNearAxis(grains, ids, normalized(drive.turn ? drive.turn->axis : drive.angularVelocity), point);
   return {ids, std::move(motion)};
 }
 
-dem::DriveTerm driveOf(dem::Model& grains, const Drive& drive, const std::vector<std::int64_t>& ids,
-                       const Scene& scene) {
-  if (turns(drive)) return rigidDrive(grains, drive, ids, scene);
-  Path path = pathOf(drive.velocity, drive.displacement, scene);
+dem::DriveTerm driveOf(dem::Model& grains, const Drive& drive, const std::vector<std::int64_t>& ids, const Scene& scene,
+                       const StepOf& step) {
+  if (turns(drive)) return rigidDrive(grains, drive, ids, scene, step);
+  Path path = pathOf(drive.velocity, drive.displacement, scene, step);
   const auto spin = spinOf(drive, scene);
   if (spin) dem::switchOnRotation(grains.particles);
   return {ids, path.displacement, path.velocity, spin};
@@ -169,7 +169,9 @@ void requireOnce(const Scene& scene) {
 
 }  // namespace
 
-void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& groups, std::vector<std::string>& notes) {
+void addBondsAndDrives(Built& built, const Scene& scene, const Groups& groups) {
+  dem::Model& grains = built.run->grains;
+  std::vector<std::string>& notes = built.notes;
   requireAlike(scene.bonds);
   requireOnce(scene);
   if (!scene.bonds.empty()) {
@@ -179,7 +181,9 @@ void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& gro
   }
   for (const BondGroup& group : scene.bonds) atPlace(group.where, [&] { add(grains, group, groups, notes); });
   for (const Drive& drive : scene.drives)
-    atPlace(drive.where, [&] { grains.terms.add(driveOf(grains, drive, groupNamed(groups, drive.group), scene)); });
+    atPlace(drive.where, [&] {
+      grains.terms.add(driveOf(grains, drive, groupNamed(groups, drive.group), scene, stepOf(*built.run)));
+    });
 }
 
 }  // namespace dovetail::scene

@@ -162,11 +162,12 @@ fem::Amplitude amplitudeOf(const Loaded& to, const Load& load, const TimeValue& 
   return functionOf(value, to.scene);
 }
 
-/// Nodes that are held in all components, ascending.
-std::vector<int> clampedIn(const fem::Model& model) {
+/// Nodes that are held in all components throughout, ascending.
+std::vector<int> clampedIn(const Loaded& to) {
   std::vector<int> nodes;
-  for (std::size_t n = 0; n < model.nodes.fixed.size(); ++n)
-    if (model.nodes.fixed[n] == fem::allComponents) nodes.push_back(static_cast<int>(n));
+  if (changesSupports(to.solid, to.scene)) return nodes;
+  for (std::size_t n = 0; n < to.model.nodes.fixed.size(); ++n)
+    if (to.model.nodes.fixed[n] == fem::allComponents) nodes.push_back(static_cast<int>(n));
   return nodes;
 }
 
@@ -181,7 +182,7 @@ void add(const Loaded& to, const Load& all, const PressureLoad& load) {
   }
   const fem::Amplitude pressure = amplitudeOf(to, all, load.pressure, 0);
   if (load.follows)
-    to.model.add(fem::followingPressure(to.mesh, to.faces(), pressure, clampedIn(to.model), to.name));
+    to.model.add(fem::followingPressure(to.mesh, to.faces(), pressure, clampedIn(to), to.name));
   else
     to.model.add(fem::deadPressure(to.mesh, to.faces(), pressure, to.name));
 }
@@ -219,7 +220,33 @@ void add(const Loaded& to, const Load& all, const TractionLoad& load) {
   }
 }
 
-void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std::size_t number, const Scene& scene) {
+/// Of the stiffest material behind some faces, Pa/m.
+double stiffestPenalty(const fem::SolidMesh& mesh, const std::vector<fem::Face>& faces, const Solid& solid) {
+  std::vector<char> isOnFace(mesh.X.size(), 0);
+  for (const fem::Face& face : faces)
+    for (int k = 0; k < fem::nodesOf(face.shape); ++k)
+      isOnFace[static_cast<std::size_t>(face.node[static_cast<std::size_t>(k)])] = 1;
+  const std::vector<std::size_t> material = materialByElement(solid, mesh);
+  const std::vector<const SolidMaterial*> materials = materialsOf(solid);
+  std::set<std::size_t> behind;
+  std::size_t element = 0;
+  for (const fem::ElementGroup& group : mesh.groups)
+    for (std::size_t e = 0; e < group.size(); ++e, ++element) {
+      const auto nodes = static_cast<std::size_t>(fem::nodesOf(group.shape));
+      const auto first = group.node.begin() + static_cast<std::ptrdiff_t>(e * nodes);
+      // As many nodes as a face has at least.
+      if (std::count_if(first, first + static_cast<std::ptrdiff_t>(nodes),
+                        [&](int n) { return isOnFace[static_cast<std::size_t>(n)] != 0; }) >= 3)
+        behind.insert(material[element]);
+    }
+  double largest = 0.0;
+  for (const std::size_t m : behind)
+    largest = std::max(largest, fem::contactPenalty(mesh, faces, *makeMaterial(*materials[m])));
+  return largest;
+}
+
+void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std::size_t number, const Scene& scene,
+         const StepOf& step) {
   const SolidPlane& plane = solid.planes[number];
   if (norm(plane.normal) == 0.0)
     throw InputError("the normal has no length", "", "give it a direction, such as [0, 0, 1]");
@@ -229,11 +256,10 @@ void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std:
                               .name = "plane " + std::to_string(number) + " on " + plane.on};
   // With ten times the modulus explicit steps would be a third as long.
   if (!plane.stiffness.word.empty())
-    options.penalty =
-        (solid.implicitSteps ? 1.0 : 0.1) * fem::contactPenalty(mesh, faces, *makeMaterial(solid.material));
+    options.penalty = (solid.implicitSteps ? 1.0 : 0.1) * stiffestPenalty(mesh, faces, solid);
   fem::Plane rigid{.point = plane.point, .normal = plane.normal};
   const bool moves = plane.displacement || !isConstant(plane.velocity) || norm(constantOf(plane.velocity)) > 0.0;
-  if (moves) rigid.motion = pathOf(plane.velocity, plane.displacement, scene).displacement;
+  if (moves) rigid.motion = pathOf(plane.velocity, plane.displacement, scene, step).displacement;
   if (!solid.state &&
       std::ranges::all_of(mesh.X, [&](const Vec3& X) { return dot(X - plane.point, plane.normal) < 0.0; }))
     throw InputError("all of \"" + solid.name + "\" lies behind the plane", "",
@@ -254,10 +280,11 @@ void addSets(fem::SolidMesh& mesh, const Solid& solid) {
 
 void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene,
                    Built& built) {
-  Holders holders(model, mesh, solid, scene);
-  for (const Support& one : solid.supports) atPlace(one.where, [&] { holders.hold(one); });
-  for (const MeshTie& tie : solid.ties) atPlace(tie.where, [&] { holders.carry(tie); });
-  built.notes.insert(built.notes.end(), holders.jumps().begin(), holders.jumps().end());
+  std::vector<SupportNow>& supports = built.supports.emplace_back(supportsOf(solid));
+  if (changesSupports(solid, scene))
+    for (SupportNow& one : supports) one.from = std::make_shared<const std::vector<Vec3>>(model.nodes.u);
+  const auto jumps = putHolders(model, mesh, solid, scene, stepOf(*built.run), supports);
+  built.notes.insert(built.notes.end(), jumps.begin(), jumps.end());
   for (std::size_t k = 0; k < solid.loads.size(); ++k)
     atPlace(solid.loads[k].where, [&] {
       const Load& load = solid.loads[k];
@@ -267,7 +294,7 @@ void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& s
     });
   if (solid.massDamping > 0.0) model.add(fem::massDamping(solid.massDamping));
   for (std::size_t k = 0; k < solid.planes.size(); ++k)
-    atPlace(solid.planes[k].where, [&] { add(model, mesh, solid, k, scene); });
+    atPlace(solid.planes[k].where, [&] { add(model, mesh, solid, k, scene, stepOf(*built.run)); });
 }
 
 }  // namespace dovetail::scene

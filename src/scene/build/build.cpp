@@ -157,6 +157,13 @@ void requireStatics(const Scene& scene) {
     if (overlaps)
       refuse("load steps know no grains, and an overlap ties them to a solid",
              "relax in its place, or give the overlap \"initial_equilibrium\": true");
+    if (statics->arcLength && statics->time)
+      refuse("along an arc the load may fall again, and time never does",
+             "leave \"time\" out: loads come on from 0 to what they are now, or \"control\"");
+    for (const Solid& solid : scene.solids)
+      if (statics->arcLength && solid.linearSolver == 2)
+        refuse("conjugate gradients cannot pass limit points of the load",
+               ("leave the \"linear_solver\" of \"" + solid.name + "\" out, or \"control\"").c_str());
     if (!anyGrains) continue;
     if (statics->time)
       refuse("time passes in a static stage, and grains would stand still meanwhile",
@@ -204,7 +211,7 @@ Built build(const Scene& scene) {
   Groups groups = addParticles(grains, scene, built.notes);
   if (std::isinf(grains.laws->reach())) dem::findPairs(grains.particles, grains.pairs);  // those that hold together
   addClumps(grains, scene, groups);
-  addBondsAndDrives(grains, scene, groups, built.notes);
+  addBondsAndDrives(built, scene, groups);
   addWalls(built, scene);
   addStreams(grains, scene);
   addSolids(built, scene);

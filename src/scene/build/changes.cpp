@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "law_kinds.hpp"
 #include "parts.hpp"
+#include "supports.hpp"
 #include "time_functions.hpp"
 #include "wall_motion.hpp"
 #include "warnings/warnings.hpp"
@@ -62,6 +63,32 @@ void changeLoads(Built& built, const Scene& scene, const Changes& changes, doubl
   }
 }
 
+/// The supports of a solid after a change.
+void change(std::vector<SupportNow>& supports, const SupportChange& change, double since,
+            const std::shared_ptr<const std::vector<Vec3>>& from) {
+  for (SupportNow& one : supports)
+    if (one.support.on == change.support.on) {
+      one.support.x = one.support.x && !change.support.x;
+      one.support.y = one.support.y && !change.support.y;
+      one.support.z = one.support.z && !change.support.z;
+    }
+  std::erase_if(supports, [](const SupportNow& one) { return !one.support.x && !one.support.y && !one.support.z; });
+  if (!change.present) return;
+  supports.push_back({change.support, "the changed support on \"" + change.support.on + "\"", since, from});
+  supports.back().support.where = change.where;
+}
+
+void changeSupports(Built& built, const Scene& scene, const Changes& changes, const StageStart& start) {
+  for (std::size_t s = 0; s < scene.solids.size() && s < start.displacements.size(); ++s) {
+    if (start.displacements[s].u.empty()) continue;
+    const auto from = std::make_shared<const std::vector<Vec3>>(start.displacements[s].u);
+    for (const SupportChange& one : changes.supports)
+      if (one.solid == scene.solids[s].name) change(built.supports[s], one, start.time, from);
+    putHolders(*built.run->solid(s).model, built.meshes[s], scene.solids[s], scene, stepOf(*built.run),
+               built.supports[s]);
+  }
+}
+
 /// Walls that appear push what lies behind them to their other side.
 void requireNoneBehind(const Built& built, const Scene& scene, const Changes& changes) {
   for (const WallChange& one : changes.walls)
@@ -105,6 +132,40 @@ void requireLoad(const Scene& scene, const LoadChange& change) {
                      "give both the same \"follows\"");
 }
 
+bool isPut(const SupportNow& one, const SupportChange& change) {
+  const Support &a = one.support, &b = change.support;
+  return a.on == b.on && ((a.x && b.x) || (a.y && b.y) || (a.z && b.z));
+}
+/// Tries the supports of a stage on a solid that nothing has moved. @param since  of this stage
+void requireSupports(const Built& built, const Scene& scene, const SupportChange& one,
+                     std::vector<std::vector<SupportNow>>& supports, double since) {
+  const std::size_t s = atPlace(one.where, [&] { return solidNamed(one.solid, *built.run); });
+  const fem::SolidMesh& mesh = built.meshes[s];
+  atPlace(one.where, [&] { fem::nodeSet(mesh, one.support.on); });
+  const Support& own = one.support;
+  if (!one.present && (own.displacement || own.turn || !isConstant(own.velocity) || norm(constantOf(own.velocity)) > 0))
+    throw InputError("the support on \"" + own.on + "\" lets nodes go and moves them", one.where,
+                     "leave its motion out, or \"present\"");
+  if (!one.present && std::ranges::none_of(supports[s], [&](const SupportNow& now) { return isPut(now, one); }))
+    throw InputError("no support on \"" + own.on + "\" holds these components before", one.where,
+                     "leave the change out, or name a set that a support is on");
+  change(supports[s], one, since, nullptr);
+  fem::Model model = fem::makeModel(mesh);
+  const auto jumps = putHolders(model, mesh, scene.solids[s], scene, stepOf(*built.run), supports[s]);
+  if (one.present && jumps.size() > 0 && jumps.back().find(supports[s].back().name) != std::string::npos)
+    throw InputError("the support on \"" + own.on + "\" moves nodes at once as the stage begins", one.where,
+                     "let its displacement start at 0, such as \"0.1*min(t/T, 1)\": t counts from there");
+}
+
+/// While a stage relaxes.
+void requireStandstill(const std::vector<std::vector<SupportNow>>& supports) {
+  for (const std::vector<SupportNow>& all : supports)
+    for (const SupportNow& one : all)
+      if (isConstant(one.support.velocity) && norm(constantOf(one.support.velocity)) > 0.0)
+        throw InputError("a stage relaxes, but a support has a steady velocity", one.support.where,
+                         "give it a displacement such as \"0.1*min(t/T, 1)\", or run in place of relaxing");
+}
+
 /// What moves steadily as a stage begins.
 struct Steady {
   bool path = false, belt = false, present = true;
@@ -135,8 +196,15 @@ void requireStandstill(const Scene& scene) {
 
 }  // namespace
 
-StageStart startOf(const Built& built) {
-  StageStart start{built.run->time(), {}};
+StageStart startOf(const Built& built, const Scene& scene, std::size_t stage) {
+  StageStart start{built.run->time(), {}, {}};
+  for (std::size_t s = 0; s < scene.solids.size(); ++s) {
+    const bool moves = scene.stages[stage].changes &&
+                       std::ranges::any_of(scene.stages[stage].changes->supports,
+                                           [&](const SupportChange& one) { return one.solid == scene.solids[s].name; });
+    start.displacements.emplace_back();
+    if (moves) start.displacements.back().u = std::as_const(*built.run).solid(s).nodes().u;
+  }
   for (const WallParts& parts : built.walls) {
     const dem::WallServo* const servo = servoIn(built.run->grains, parts);
     start.travels.push_back(servo ? servo->travel : 0.0);
@@ -156,15 +224,21 @@ void beginStage(Built& built, const Scene& scene, std::size_t stage, const Stage
     if (grains == Grains::areThere) requireNoneBehind(built, scene, changes);
     if (changes.gravity) *built.changing.gravity = *changes.gravity;
     changeLoads(built, scene, changes, start.time);
+    changeSupports(built, scene, changes, start);
   };
-  // Walls that jump to where a state has them may pass grains that still lie as at the start.
-  grains == Grains::areThere ? run.change(act) : act();
+  // Walls that jump to where a state has them may pass grains that still lie as at the start. Solids begin anew where
+  // others hold them.
+  grains == Grains::areThere || !changes.supports.empty() ? run.change(act) : act();
 }
 
 void requireChanges(const Built& built, const Scene& scene) {
   requireStandstill(scene);
+  std::vector<std::vector<SupportNow>> supports = built.supports;
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
-    if (!scene.stages[k].changes) continue;
+    if (!scene.stages[k].changes) {
+      if (std::holds_alternative<Relax>(scene.stages[k].kind)) requireStandstill(supports);
+      continue;
+    }
     const Changes& changes = *scene.stages[k].changes;
     if (!std::holds_alternative<Relax>(scene.stages[k].kind) && !std::holds_alternative<RunFor>(scene.stages[k].kind))
       throw InputError("only stages that relax or run have changes", changes.where,
@@ -175,6 +249,9 @@ void requireChanges(const Built& built, const Scene& scene) {
       atPlace(pair.law.where, [&] { contactRow(scene, pair.first), contactRow(scene, pair.second); });
     }
     for (const LoadChange& one : changes.loads) atPlace(one.where, [&] { requireLoad(scene, one); });
+    for (const SupportChange& one : changes.supports)
+      requireSupports(built, scene, one, supports, static_cast<double>(k + 1));
+    if (std::holds_alternative<Relax>(scene.stages[k].kind)) requireStandstill(supports);
     grainsAt(built, scene, k);
   }
 }
@@ -209,6 +286,13 @@ Scene lawsAt(const Scene& scene, std::size_t stage) {
 
 bool changesGravity(const Scene& scene) {
   return std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes && one.changes->gravity; });
+}
+
+bool changesSupports(const Solid& solid, const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [&](const Stage& stage) {
+    return stage.changes && std::ranges::any_of(stage.changes->supports,
+                                                [&](const SupportChange& one) { return one.solid == solid.name; });
+  });
 }
 
 bool isChanged(const Load& load, const Solid& solid, const Scene& scene) {

@@ -14,14 +14,22 @@ namespace dovetail::scene {
 struct StageStart {
   double time = 0.0;            ///< s
   std::vector<double> travels;  ///< m or rad, of the servo of each wall, 0 without
+  struct Displacements {
+    std::vector<Vec3> u;  ///< m
+  };
+  std::vector<Displacements> displacements;  ///< of the nodes of each solid whose supports change, else none
 };
+template <class Archive, class D>
+void archiveFields(Archive& archive, D& of) requires std::is_same_v<std::remove_const_t<D>, StageStart::Displacements> {
+  archive(of.u);
+}
 template <class Archive, class S>
 void archiveFields(Archive& archive, S& start) requires std::is_same_v<std::remove_const_t<S>, StageStart> {
-  archive(start.time, start.travels);
+  archive(start.time, start.travels, start.displacements);
 }
 
-/// Now, of a started run.
-StageStart startOf(const Built& built);
+/// Now, of a started run before this stage.
+StageStart startOf(const Built& built, const Scene& scene, std::size_t stage);
 /// Whether grains are where they are as the stage begins, or a state will put them there.
 enum class Grains { areThere, follow };
 /// Makes the changes of a stage.
@@ -38,6 +46,8 @@ Scene lawsAt(const Scene& scene, std::size_t stage);
 bool changesLaws(const Stage& stage);
 /// Whether a stage changes gravity.
 bool changesGravity(const Scene& scene);
+/// Whether a stage changes supports of a solid.
+bool changesSupports(const Solid& solid, const Scene& scene);
 /// Whether a stage changes a load of a solid.
 bool isChanged(const Load& load, const Solid& solid, const Scene& scene);
 std::string keyOfLoad(const std::string& solid, const Load& load, int component);

@@ -58,7 +58,7 @@ double softestSpring(const Scene& scene, int row, double radius);
 using Groups = std::map<std::string, std::vector<std::int64_t>>;
 
 Groups addParticles(dem::Model& grains, const Scene& scene, std::vector<std::string>& notes);
-void addBondsAndDrives(dem::Model& grains, const Scene& scene, const Groups& groups, std::vector<std::string>& notes);
+void addBondsAndDrives(Built& built, const Scene& scene, const Groups& groups);
 /// Of the grains there are and those that enter, m.
 double largestRadius(const Scene& scene, const dem::Particles& particles);
 void addWalls(Built& built, const Scene& scene);

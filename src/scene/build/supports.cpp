@@ -23,11 +23,12 @@ std::string textOf(const TimeValue& value) { return isConstant(value) ? formatNu
 
 }  // namespace
 
-Holders::Holders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene)
+Holders::Holders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene, StepOf step)
     : model_(model),
       mesh_(mesh),
       solid_(solid),
       scene_(scene),
+      step_(std::move(step)),
       heldBy_(3 * mesh.X.size(), nobody),
       carriedBy_(3 * mesh.X.size(), nullptr),
       masterOf_(3 * mesh.X.size(), nullptr) {}
@@ -57,15 +58,39 @@ std::function<double(const Vec3&, double)> turnOf(const Support& support, int co
 
 }  // namespace
 
-double Holders::at(const Motion& motion, int node, double t) const {
-  const auto n = static_cast<std::size_t>(node);
-  return motion.field ? motion.field(mesh_.X[n], model_.nodes.u[n], t) : motion.displacement(t);
+const Vec3& Holders::startOf(const Motion& motion, int node) const {
+  return (motion.from ? *motion.from : model_.nodes.u)[static_cast<std::size_t>(node)];
 }
 
-Holders::Motion Holders::motionOf(const Support& support, int component) const {
-  const auto number = &support - solid_.supports.data();
+double Holders::at(const Motion& motion, int node, double t) const {
+  return motion.field ? motion.field(mesh_.X[static_cast<std::size_t>(node)], startOf(motion, node), t)
+                      : motion.displacement(t);
+}
+
+namespace {
+
+/// Counted from a later time on.
+template <class... Place>
+void begin(std::function<double(Place...)>& function, double since);
+template <>
+void begin(TimeFunction& function, double since) {
+  if (function && since > 0.0)
+    function = [of = std::move(function), since](double t) { return of(std::max(0.0, t - since)); };
+}
+template <>
+void begin(std::function<double(const Vec3&, const Vec3&, double)>& function, double since) {
+  if (function && since > 0.0)
+    function = [of = std::move(function), since](const Vec3& X, const Vec3& u, double t) {
+      return of(X, u, std::max(0.0, t - since));
+    };
+}
+
+}  // namespace
+
+Holders::Motion Holders::motionOf(const SupportNow& held, int component) const {
+  const Support& support = held.support;
   const auto c = static_cast<std::size_t>(component);
-  Motion motion{.name = "supports item " + std::to_string(number) + " on " + quoted(support.on)};
+  Motion motion{.name = held.name, .since = held.since, .from = held.from.get()};
   const TimeValue& velocity = support.velocity[c];
   PlaceFunction displaced;
   if (support.displacement) {
@@ -75,12 +100,12 @@ Holders::Motion Holders::motionOf(const Support& support, int component) const {
     if (usesPlace(displacement))
       displaced = fieldOf(displacement, scene_);
     else
-      motion.displacement = travelOf(displacement, scene_).displacement;
+      motion.displacement = travelOf(displacement, scene_, step_).displacement;
   } else {
     motion.steady = isConstant(velocity);
     motion.velocity = motion.steady ? velocity.number : 0.0;
     motion.text = "moved with the velocity " + textOf(velocity);
-    motion.displacement = travelAt(velocity, scene_).displacement;
+    motion.displacement = travelAt(velocity, scene_, step_).displacement;
   }
   std::function<double(const Vec3&, double)> turned;
   if (support.turn) turned = turnOf(support, component, scene_);
@@ -92,11 +117,15 @@ Holders::Motion Holders::motionOf(const Support& support, int component) const {
                    rounded(support.point->y) + ", " + rounded(support.point->z) + ") m";
     motion.steady = false;
   }
-  if (!displaced && !turned) return motion;
+  if (!displaced && !turned) {
+    begin(motion.displacement, held.since);
+    return motion;
+  }
   motion.field = [=, point = support.point.value_or(Vec3{}), path = motion.displacement](const Vec3& X, const Vec3& u,
                                                                                          double t) {
     return (displaced ? displaced(X, t) : path(t)) + (turned ? turned(X + u - point, t) : 0.0);
   };
+  begin(motion.field, held.since);
   return motion;
 }
 
@@ -111,6 +140,9 @@ bool Holders::areSame(int first, int second, int node) {
 
 /// At times that no period of a function is likely to share.
 bool Holders::areAlike(const Motion& a, const Motion& b, int node) const {
+  const auto rests = [](const Motion& one) { return one.steady && one.velocity == 0.0; };
+  if (rests(a) && rests(b)) return true;
+  if (a.since != b.since) return false;
   double largest = 0.0, apart = 0.0;
   constexpr int samples = 199;
   for (int k = 0; k <= samples && a.text != b.text; ++k) {
@@ -125,7 +157,7 @@ bool Holders::areAlike(const Motion& a, const Motion& b, int node) const {
 void Holders::lookForJump(const std::vector<int>& set, const Motion& motion, int component) {
   double jump = 0.0;
   for (const int node : set)
-    if (const double own = at(motion, node, 0.0); std::abs(own) > std::abs(jump)) jump = own;
+    if (const double own = at(motion, node, motion.since); std::abs(own) > std::abs(jump)) jump = own;
   if (jump == 0.0) return;
   jumps_.push_back(
       "WARNING: Of " + quoted(solid_.name) + ", " + motion.name + " moves component " + "xyz"[component] + " by " +
@@ -165,14 +197,14 @@ void Holders::prescribe(const std::vector<int>& nodes, int component, const Moti
   if (motion.field)
     for (const int node : nodes) {
       const auto n = static_cast<std::size_t>(node);
-      const Vec3 X = mesh_.X[n], u = model_.nodes.u[n];
+      const Vec3 X = mesh_.X[n], u = startOf(motion, node);
       model_.constraints.prescribe(std::array{node}, component,
                                    [=, field = motion.field](double t) { return u[component] + field(X, u, t); });
     }
   if (motion.field) return;
   const TimeFunction& displacement = motion.displacement;
   std::map<double, std::vector<int>> byStart;
-  for (const int node : nodes) byStart[model_.nodes.u[static_cast<std::size_t>(node)][component]].push_back(node);
+  for (const int node : nodes) byStart[startOf(motion, node)[component]].push_back(node);
   for (const auto& [start, those] : byStart)
     if (start == 0.0)
       model_.constraints.prescribe(those, component, displacement);
@@ -180,20 +212,20 @@ void Holders::prescribe(const std::vector<int>& nodes, int component, const Moti
       model_.constraints.prescribe(those, component, [=, start = start](double t) { return start + displacement(t); });
 }
 
-void Holders::hold(const Support& support) {
+void Holders::hold(const SupportNow& held) {
+  const Support& support = held.support;
   const std::vector<int>& set = fem::nodeSet(mesh_, support.on);
   if (support.displacement && (!isConstant(support.velocity) || norm(constantOf(support.velocity)) > 0.0))
     throw InputError("both a velocity and a displacement are given", "", "leave one of them out");
   if (support.point && !support.turn)
     throw InputError("the support has a point and no turn about it", "", "give it a \"turn\", or leave point out");
-  const std::array<bool, 3> held{support.x, support.y, support.z};
-  if (std::ranges::count(held, true) == 0)
+  const std::array<bool, 3> components{support.x, support.y, support.z};
+  if (std::ranges::count(components, true) == 0)
     throw InputError("components is empty, and the support on " + quoted(support.on) + " holds nothing", "",
                      "name components, such as [\"x\"], or leave the key out to hold all");
   for (int c = 0; c < 3; ++c) {
-    const auto axis = static_cast<std::size_t>(c);
-    if (!held[axis]) continue;
-    Motion motion = motionOf(support, c);
+    if (!components[static_cast<std::size_t>(c)]) continue;
+    Motion motion = motionOf(held, c);
     if (!motion.steady) lookForJump(set, motion, c);
     claim(set, c, std::move(motion));
   }
@@ -234,6 +266,23 @@ void Holders::carry(const MeshTie& tie) {
               quoted(carriedBy_[index]->nodes) + ", and nodes of " + quoted(masterOf_[index]->nodes) +
               " are tied to it",
           "", "let both ties have the same faces, or leave the node out of " + quoted(carriedBy_[index]->nodes));
+}
+
+std::vector<std::string> putHolders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid,
+                                    const Scene& scene, const StepOf& step, const std::vector<SupportNow>& supports) {
+  model.constraints = {};
+  std::ranges::fill(model.nodes.fixed, 0U);
+  Holders holders(model, mesh, solid, scene, step);
+  for (const SupportNow& one : supports) atPlace(one.support.where, [&] { holders.hold(one); });
+  for (const MeshTie& tie : solid.ties) atPlace(tie.where, [&] { holders.carry(tie); });
+  return holders.jumps();
+}
+
+std::vector<SupportNow> supportsOf(const Solid& solid) {
+  std::vector<SupportNow> all;
+  for (std::size_t k = 0; k < solid.supports.size(); ++k)
+    all.push_back({solid.supports[k], "supports item " + std::to_string(k) + " on " + quoted(solid.supports[k].on)});
+  return all;
 }
 
 }  // namespace dovetail::scene

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dovetail/fem/model/model.hpp"
+#include "dovetail/scene/build.hpp"
 #include "time_functions.hpp"
 
 namespace dovetail::scene {
@@ -15,10 +16,11 @@ namespace dovetail::scene {
 /// place is so once; a tie leaves alone what its masters' supports and a support of its node do anyway.
 class Holders {
 public:
-  Holders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene);
+  /// @param step  of the run
+  Holders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene, StepOf step);
 
   /// @throws InputError naming the node and both, if another support moves it otherwise
-  void hold(const Support& support);
+  void hold(const SupportNow& support);
   /// @throws InputError naming the node, if a support or another tie asks otherwise
   void carry(const MeshTie& tie);
   /// What is moved away from where it lies at t = 0 at once: sentences with what to write instead.
@@ -33,10 +35,13 @@ private:
     /// In its place, of the undeformed place and the displacement at the start, m, and the time.
     std::function<double(const Vec3&, const Vec3&, double)> field{};
     std::string text{};
+    double since = 0.0;                       ///< s
+    const std::vector<Vec3>* from = nullptr;  ///< displacements at its start, m; null: as the nodes are
   };
   static constexpr int nobody = -1;
 
-  Motion motionOf(const Support& support, int component) const;
+  Motion motionOf(const SupportNow& held, int component) const;
+  const Vec3& startOf(const Motion& motion, int node) const;
   double at(const Motion& motion, int node, double t) const;
   void claim(const std::vector<int>& set, int component, Motion motion);
   void prescribe(const std::vector<int>& nodes, int component, const Motion& motion);
@@ -50,11 +55,19 @@ private:
   const fem::SolidMesh& mesh_;
   const Solid& solid_;
   const Scene& scene_;
+  StepOf step_;
   std::vector<Motion> motions_;
   std::vector<int> heldBy_;  ///< number of the motion, by 3 node + component
   std::vector<const MeshTie*> carriedBy_, masterOf_;
   std::map<std::pair<int, int>, bool> same_;
   std::vector<std::string> jumps_;
 };
+
+/// Puts supports and the ties of the solid on its model in place of all that it has.
+/// @return what is moved at once, as Holders::jumps. @throws InputError with the place of one at fault
+std::vector<std::string> putHolders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid,
+                                    const Scene& scene, const StepOf& step, const std::vector<SupportNow>& supports);
+/// Those of the scene.
+std::vector<SupportNow> supportsOf(const Solid& solid);
 
 }  // namespace dovetail::scene

@@ -39,8 +39,17 @@ TimeFunction remembered(TimeFunction function) {
 /// ∫ v dt from 0 on.
 class Integral {
 public:
-  Integral(TimeFunction velocity, double piece) : velocity_(std::move(velocity)), piece_(piece) {}
+  Integral(TimeFunction velocity, std::function<double()> piece)
+      : velocity_(std::move(velocity)), pieceNow_(std::move(piece)) {}
   double operator()(double t) {
+    if (const double piece = pieceNow_(); piece != piece_) piece_ = piece, sums_ = {0.0}, last_ = {NAN, 0.0};
+    if (t == last_.first) return last_.second;  // many nodes ask for the same time
+    last_ = {t, upTo(t)};
+    return last_.second;
+  }
+
+private:
+  double upTo(double t) {
     const auto whole = static_cast<std::size_t>(std::max(0.0, std::floor(t / piece_)));
     while (sums_.size() <= whole) {
       const double from = static_cast<double>(sums_.size() - 1) * piece_;
@@ -48,15 +57,15 @@ public:
     }
     return sums_[whole] + over(static_cast<double>(whole) * piece_, t);
   }
-
-private:
   double over(double from, double to) const {
     const double half = 0.5 * (to - from), middle = 0.5 * (from + to), out = std::sqrt(0.6) * half;
     return half / 9.0 * (5.0 * velocity_(middle - out) + 8.0 * velocity_(middle) + 5.0 * velocity_(middle + out));
   }
   TimeFunction velocity_;
-  double piece_;
+  std::function<double()> pieceNow_;
+  double piece_ = 0.0;
   std::vector<double> sums_{0.0};
+  std::pair<double, double> last_{NAN, 0.0};
 };
 
 }  // namespace
@@ -101,34 +110,49 @@ PlaceFunction fieldOf(const TimeValue& value, const Scene& scene) {
   return fieldOf(value.expression, scene.parameters);
 }
 
-Travel travelOf(const TimeValue& displacement, const Scene& scene) {
-  if (isConstant(displacement)) return {functionOf(displacement, scene), [](double) { return 0.0; }};
-  const double step = 1e-6 * durationOf(scene);
-  const auto path = [f = functionOf(displacement, scene)](double t) { return t < 0.0 ? 2.0 * f(0.0) - f(-t) : f(t); };
-  return {path, [path, step](double t) { return (path(t + step) - path(t - step)) / (2.0 * step); }};
+StepOf stepOf(const coupling::CoupledRun& run) {
+  return [&run] { return run.dt(); };
 }
 
-Travel travelAt(const TimeValue& velocity, const Scene& scene) {
+Travel travelOf(const TimeValue& displacement, const Scene& scene, const StepOf& stepNow) {
+  if (isConstant(displacement)) return {functionOf(displacement, scene), [](double) { return 0.0; }};
+  const auto step = [stepNow] {
+    constexpr double least = 1e-9;  // s: the step before the start, and where no time passes
+    return std::max(least, stepNow ? 0.1 * stepNow() : 0.0);
+  };
+  const auto path = [f = functionOf(displacement, scene)](double t) { return t < 0.0 ? 2.0 * f(0.0) - f(-t) : f(t); };
+  return {path, [path, step](double t) {
+            const double h = step();
+            return (path(t + h) - path(t - h)) / (2.0 * h);
+          }};
+}
+
+Travel travelAt(const TimeValue& velocity, const Scene& scene, const StepOf& stepNow) {
   if (isConstant(velocity))
     return {[v = velocity.number](double t) { return v * t; }, [v = velocity.number](double) { return v; }};
   const auto speed = [f = functionOf(velocity, scene)](double t) { return f(std::max(0.0, t)); };
-  const auto integral = std::make_shared<Integral>(speed, 1e-5 * durationOf(scene));
-  return {remembered([integral](double t) { return (*integral)(t); }), speed};
+  const auto piece = [stepNow, before = 1e-5 * durationOf(scene)] {
+    const double step = stepNow ? stepNow() : 0.0;
+    return step > 0.0 ? 4.0 * step : before;
+  };
+  const auto integral = std::make_shared<Integral>(speed, piece);
+  return {[integral](double t) { return (*integral)(t); }, speed};
 }
 
 std::array<Travel, 3> travels(const TimeVector& velocity, const std::optional<TimeVector>& displacement,
-                              const Scene& scene) {
+                              const Scene& scene, const StepOf& step) {
   const bool moves = !isConstant(velocity) || norm(constantOf(velocity)) > 0.0;
   if (displacement && moves)
     throw InputError("both a velocity and a displacement are given", "", "leave one of them out");
   std::array<Travel, 3> all;
   for (std::size_t c = 0; c < 3; ++c)
-    all[c] = displacement ? travelOf((*displacement)[c], scene) : travelAt(velocity[c], scene);
+    all[c] = displacement ? travelOf((*displacement)[c], scene, step) : travelAt(velocity[c], scene, step);
   return all;
 }
 
-Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene) {
-  const std::array<Travel, 3> all = travels(velocity, displacement, scene);
+Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene,
+            const StepOf& step) {
+  const std::array<Travel, 3> all = travels(velocity, displacement, scene, step);
   return {[all](double t) {
             return Vec3{all[0].displacement(t), all[1].displacement(t), all[2].displacement(t)};
           },

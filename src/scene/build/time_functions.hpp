@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "dovetail/coupling/run.hpp"
 #include "dovetail/scene/scene.hpp"
 
 namespace dovetail::scene {
@@ -28,11 +29,15 @@ Vec3 constantOf(const TimeVector& value);
 struct Travel {
   TimeFunction displacement, velocity;
 };
-/// Of a displacement: the velocity is its central difference over a millionth of the time that the scene runs.
-Travel travelOf(const TimeValue& displacement, const Scene& scene);
-/// Of a velocity: integrated by Gauss' rule of three points over pieces of 1e-5 of the time that the scene runs, from
-/// t = 0 on, so that it is the same at the same time, whatever was asked for before.
-Travel travelAt(const TimeValue& velocity, const Scene& scene);
+/// Time step of the run, s; 0 before it has one. How long the scene runs has no part in what functions give then.
+using StepOf = std::function<double()>;
+StepOf stepOf(const coupling::CoupledRun& run);
+/// Of a displacement: the velocity is its central difference over a tenth of the step on either side.
+Travel travelOf(const TimeValue& displacement, const Scene& scene, const StepOf& step = {});
+/// Of a velocity: integrated by Gauss' rule of three points over pieces of four steps, from t = 0 on, so that it is the
+/// same at the same time, whatever was asked for before. Without a step: pieces of 1e-5 of the time that the scene
+/// runs.
+Travel travelAt(const TimeValue& velocity, const Scene& scene, const StepOf& step = {});
 
 struct Path {
   std::function<Vec3(double)> displacement, velocity;  ///< m, m/s
@@ -40,7 +45,8 @@ struct Path {
 /// What a structure with a velocity or a displacement in its place tells, component by component.
 /// @throws InputError if both are there
 std::array<Travel, 3> travels(const TimeVector& velocity, const std::optional<TimeVector>& displacement,
-                              const Scene& scene);
-Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene);
+                              const Scene& scene, const StepOf& step = {});
+Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene,
+            const StepOf& step = {});
 
 }  // namespace dovetail::scene

@@ -221,7 +221,7 @@ void setPath(const MovedModel& model, WallParts& parts, const WallMotion& motion
   endServo(grains, parts);
   parts.base = {now.x, now.turn, {}, {}};
   parts.since = grains.time;
-  parts.motion = motionOf(motion, parts, scene);
+  parts.motion = motionOf(motion, parts, scene, stepOf(model.run));
   const double time = grains.time;
   forEachPrimitive(grains, parts, [&](dem::PrimitiveWallTerm& term, std::size_t i) {
     const Vec3 arm = parts.arms[i], axis = parts.axes[i];
@@ -240,20 +240,21 @@ void setPath(const MovedModel& model, WallParts& parts, const WallMotion& motion
 
 }  // namespace
 
-dem::PrescribedMotion motionOf(const RigidPath& motion, const WallParts& parts, const Scene& scene) {
-  return motionOf(motion, parts.base, parts.base.x + rotate(parts.base.turn, parts.centre), parts.since, scene);
+dem::PrescribedMotion motionOf(const RigidPath& motion, const WallParts& parts, const Scene& scene,
+                               const StepOf& step) {
+  return motionOf(motion, parts.base, parts.base.x + rotate(parts.base.turn, parts.centre), parts.since, scene, step);
 }
 
 dem::PrescribedMotion motionOf(const RigidPath& motion, const dem::RigidMotion& base, const Vec3& own, double since,
-                               const Scene& scene) {
+                               const Scene& scene, const StepOf& step) {
   if (motion.turn && norm(motion.angularVelocity) > 0.0)
     throw InputError("both an angular velocity and a turn are given", "", "leave one of them out");
   if (motion.turn && norm(motion.turn->axis) == 0.0)
     throw InputError("the axis of the turn has no length", "", "give it a direction, such as [0, 0, 1]");
-  const Path path = pathOf(motion.velocity, motion.displacement, scene);
+  const Path path = pathOf(motion.velocity, motion.displacement, scene, step);
   const double speed = norm(motion.angularVelocity);
   const Vec3 axis = motion.turn ? normalized(motion.turn->axis) : speed > 0.0 ? motion.angularVelocity / speed : Vec3{};
-  const Travel angle = motion.turn ? travelOf(motion.turn->angle, scene) : travelAt({speed, ""}, scene);
+  const Travel angle = motion.turn ? travelOf(motion.turn->angle, scene, step) : travelAt({speed, ""}, scene);
   const Vec3 centre = motion.turn ? motion.turn->point.value_or(own) : own, arm = base.x - centre;
   return [=](double time) {
     const double t = time - since;

@@ -3,6 +3,7 @@
 
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/scene/build.hpp"
+#include "time_functions.hpp"
 
 namespace dovetail::scene {
 
@@ -16,9 +17,9 @@ struct MovedModel {
 /// @param centre  that it turns about unless its turn has a point, m
 /// @throws InputError for a path and a turn that are given twice, or an axis of no length
 dem::PrescribedMotion motionOf(const RigidPath& motion, const dem::RigidMotion& base, const Vec3& centre, double since,
-                               const Scene& scene);
+                               const Scene& scene, const StepOf& step);
 /// Of the point of a wall from `parts.base` and `parts.since` on.
-dem::PrescribedMotion motionOf(const RigidPath& motion, const WallParts& parts, const Scene& scene);
+dem::PrescribedMotion motionOf(const RigidPath& motion, const WallParts& parts, const Scene& scene, const StepOf& step);
 
 /// Where the point of a wall is now, and how the wall is turned.
 dem::RigidMotion placeOf(const WallParts& parts, const dem::Model& grains, double time);

@@ -93,7 +93,7 @@ void move(const Target& to) {
   if (isAtRest(to.wall)) return;
   dem::Model& grains = to.run.grains;
   if (!isSteady(to.wall, to.parts)) return setMotion({grains, to.run}, to.parts, to.wall, to.scene);
-  to.parts.motion = motionOf(to.wall, to.parts, to.scene);
+  to.parts.motion = motionOf(to.wall, to.parts, to.scene, stepOf(to.run));
   for (std::size_t i = to.parts.firstPrimitive; i < to.parts.endPrimitive; ++i) {
     dem::primitiveWall(grains, i).velocity = constantOf(to.wall.velocity);
     dem::primitiveWall(grains, i).angularVelocity = to.wall.angularVelocity;

@@ -92,6 +92,7 @@ void describe(Fields& f, RunFor& v);
 void describe(Fields& f, Statics& v);
 void describe(Fields& f, FindModes& v);
 void describe(Fields& f, LoadChange& v);
+void describe(Fields& f, SupportChange& v);
 void describe(Fields& f, Changes& v);
 void describe(Fields& f, Stage& v);
 void describe(Fields& f, Steps& v);

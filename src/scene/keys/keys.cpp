@@ -43,10 +43,14 @@ void describe(Fields& f, Relax& v) {
 }
 void describe(Fields& f, RunFor& v) { f.number({"time", "simulated time"}, v.time, positive(unit::time)); }
 void describe(Fields& f, Statics& v) {
+  static constexpr const char* controls[] = {"load", "arc-length"};
   f.integer({"load_steps", "in which loads come on; they are halved where there is no equilibrium"}, v.loadSteps, 1,
             100000);
   f.number({"time", "that passes for functions of time, in scenes without grains; none if not given"}, v.time,
            positive(unit::time));
+  f.choice({"control",
+            "equal parts of the load; or arcs of the path of equilibria, on which the load may fall (snap-through)"},
+           v.arcLength, controls);
 }
 void describe(Fields& f, FindModes& v) {
   f.integer({"count", "of the lowest frequencies of each solid"}, v.count, 1, 1000);
@@ -56,6 +60,12 @@ void describe(Fields& f, LoadChange& v) {
   f.text({"solid", "name of the solid"}, v.solid, true);
   describe(f, v.load);
 }
+void describe(Fields& f, SupportChange& v) {
+  f.where(v.where);
+  f.text({"solid", "name of the solid"}, v.solid, true);
+  describe(f, v.support);
+  f.flag({"present", "false: the nodes are let go"}, v.present);
+}
 void describe(Fields& f, Changes& v) {
   f.where(v.where);
   f.vector({"gravity", "acceleration"}, v.gravity, unit::acceleration);
@@ -63,6 +73,7 @@ void describe(Fields& f, Changes& v) {
   f.list({"contacts", "in place of the laws of these pairs before"}, v.contacts);
   f.list({"walls", "motions, belts and presence of walls"}, v.walls);
   f.list({"loads", "in place of the load of this kind on the same face set"}, v.loads);
+  f.list({"supports", "in place of those on the same node set and components; motions go on from there"}, v.supports);
 }
 void describe(Fields& f, Stage& v) {
   static constexpr const char* kinds[] = {"relax", "run", "statics", "modes"};

@@ -13,14 +13,15 @@ const io::FrameContent* Instant::find(const std::string& name) const {
   return found == parts.end() ? nullptr : &found->second;
 }
 
-RunFrames::RunFrames(const fs::path& folder, const Scene& scene) {
+RunFrames::RunFrames(const fs::path& folder, const Scene& scene, bool modes) {
   std::vector<std::string> names{"grains", "contacts", "bonds"};
   for (const Solid& solid : scene.solids) names.push_back("solid_" + solid.name);
   for (std::size_t w = 0; w < scene.walls.size(); ++w) names.push_back("wall_" + std::to_string(w));
   std::set<double> times;
   std::error_code error;
   for (const std::string& name : names) {
-    const fs::path file = folder / (name + ".pvd");
+    if (modes && !name.starts_with("solid_")) continue;
+    const fs::path file = folder / ((modes ? "modes_" + name.substr(6) : name) + ".pvd");
     if (!fs::is_regular_file(file, error)) continue;
     for (const auto& [time, frame] : io::readPvd(file)) {
       files_[name][time] = frame;
@@ -28,6 +29,9 @@ RunFrames::RunFrames(const fs::path& folder, const Scene& scene) {
     }
   }
   times_.assign(times.begin(), times.end());
+  if (times_.empty() && modes)
+    throw InputError("the run has no frames of modes", folder.string(),
+                     "give its scene a stage \"do\": \"modes\" and \"frames\" in \"output\", and run again");
   if (times_.empty())
     throw InputError("the run has no frames", folder.string(),
                      "write \"frames\": \"10 ms\", or another interval, into \"output\" of its scene, and run again");

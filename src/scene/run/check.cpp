@@ -114,7 +114,9 @@ void reportMemory(const Built& built, std::ostream& log) {
 std::vector<std::string> seriesColumns(const Scene& scene) {
   Built built = build(scene);
   start(built, scene);
-  return Series(built, scene, {.loadSteps = hasStatics(scene)}).table().names();
+  SeriesFiles files;
+  files.loadSteps = hasStatics(scene);
+  return Series(built, scene, files).table().names();
 }
 
 void check(const Scene& scene, std::ostream& log) {
@@ -127,7 +129,7 @@ void check(const Scene& scene, std::ostream& log) {
     reportWarnings(built, scene, false, log);
     throw;
   }
-  if (plan.series > 0) const Series columns(built, scene, {});
+  if (plan.series > 0) const Series columns(built, scene, SeriesFiles{});
   reportParts(built, scene, log);
   reportTime(built, scene, plan, log);
   reportOutput(built, scene, plan, log);

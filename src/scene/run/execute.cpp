@@ -33,6 +33,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t lookEvery = 20;             // macro steps between two looks at signals
+constexpr std::int64_t arcsPerLoadStep = 200;      // of a path of equilibria, at most
 constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -82,7 +83,7 @@ public:
       if (modes)
         for (const std::string& line : findModes(built_, scene_, progress_.stage, file(modesFile), provenance_))
           remark(line, false);
-      if (!(relax ? comeToRest(*relax) : statics ? load(*statics) : runFor(plan_.stages[progress_.stage])))
+      if (!(relax ? comeToRest(*relax) : statics ? load(*statics, stage.where) : runFor(plan_.stages[progress_.stage])))
         return stop();
       // Before what only an end has: longer runs go on from here.
       if (progress_.stage + 1 == scene_.stages.size() && plan_.checkpoints > 0) checkpoint();
@@ -143,7 +144,7 @@ private:
 
   void begin() {
     if (progress_.begun.size() > progress_.stage) return;
-    progress_.begun.push_back(startOf(built_));
+    progress_.begun.push_back(startOf(built_, scene_, progress_.stage));
     beginStage(built_, scene_, progress_.stage, progress_.begun.back(), Grains::areThere);
     warn();
   }
@@ -178,6 +179,16 @@ private:
     if (!due(plan_.frames)) frame(0);
   }
 
+  bool load(const Statics& statics, const std::string& where) {
+    try {
+      return statics.arcLength ? followLoads(statics) : load(statics);
+    } catch (const NumericalError& error) {
+      throw NumericalError(error.what(), where,
+                           statics.arcLength ? "in the scene: larger \"load_steps\", or {\"do\": \"relax\"}"
+                                             : "in the scene: larger \"load_steps\", \"control\": \"arc-length\" to "
+                                               "follow a snap-through, or {\"do\": \"relax\"}");
+    }
+  }
   /// Load steps in which time passes are as many instants; otherwise there is but one.
   bool load(const Statics& statics) {
     const double time = statics.time.value_or(0.0) / static_cast<double>(statics.loadSteps);
@@ -199,12 +210,38 @@ private:
     }
     return true;
   }
+  /// Every step is a row and a frame, all of one instant.
+  bool followLoads(const Statics& statics) {
+    const auto hasCome = [&] {
+      bool all = progress_.macroStep > 0;
+      for (std::size_t s = 0; s < built_.run->solids(); ++s) all = all && built_.run->loadFactor(s) == 1.0;
+      return all;
+    };
+    while (!hasCome()) {
+      if (progress_.macroStep >= arcsPerLoadStep * statics.loadSteps)
+        throw NumericalError("the loads have not come on in full after " + std::to_string(progress_.macroStep) +
+                                 " steps of the path of equilibria",
+                             "", "lower the loads, or take fewer load steps, which makes each step longer");
+      for (const std::string& name : built_.run->followLoads(progress_.macroStep++, statics.loadSteps))
+        remark("the equilibrium of \"" + name +
+                   "\" under its whole load is not stable: it goes on as soon as anything disturbs it",
+               true);
+      sample(0);
+      frame(0, Frames::SameInstant::kept);
+      if (hasCome()) break;
+      if (plan_.checkpoints > 0 && progress_.macroStep % lookEvery == 0) checkpoint();
+      if (io::interruption() != 0) return false;
+    }
+    return true;
+  }
   void endLoad(const Statics& statics) {
     double farthest = 0.0;
     for (std::size_t s = 0; s < built_.run->solids(); ++s)
       for (const Vec3& u : built_.run->solid(s).nodes().u) farthest = std::max(farthest, norm(u));
-    remark("in equilibrium after " + std::to_string(statics.loadSteps) + " load steps: nodes are up to " +
-               formatNumber(farthest) + " m from their undeformed places",
+    const bool follows = statics.arcLength;
+    remark("in equilibrium after " + std::to_string(follows ? progress_.macroStep : statics.loadSteps) +
+               (follows ? " steps of the path" : " load steps") + ": nodes are up to " + formatNumber(farthest) +
+               " m from their undeformed places",
            false);
   }
 
@@ -269,9 +306,9 @@ private:
                " s set by " + limit.owner + ": take a smaller steps.dt",
            true);
   }
-  void frame(std::int64_t every) {
+  void frame(std::int64_t every, Frames::SameInstant before = Frames::SameInstant::replaced) {
     if (!frames_ || (every > 0 && !due(every))) return;
-    frames_->add(built_);
+    frames_->add(built_, before);
     progress_.frames = frames_->times();
   }
   /// Writes what does not grow with the run.

@@ -2,6 +2,7 @@
 #include "frames.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -113,10 +114,12 @@ Frames::~Frames() = default;
 
 std::vector<double> Frames::times() const { return impl_->times; }
 
-void Frames::add(const Built& built) {
-  const double time = built.run->time();
+void Frames::add(const Built& built, SameInstant before) {
+  const bool again = !impl_->times.empty() && impl_->times.back() == built.run->time();
+  if (again && before == SameInstant::replaced) impl_->dropLast();
+  const double last = impl_->times.empty() ? -1.0 : impl_->times.back();
+  const double time = built.run->time() > last ? built.run->time() : last + 1e-12 * std::max(1.0, last);
   const dem::Model& grains = built.run->grains;
-  if (!impl_->times.empty() && impl_->times.back() == time) impl_->dropLast();  // what a stage without time changes
   if (!impl_->grains.empty()) impl_->addGrains(grains.particles, time);
   if (!impl_->contacts.empty()) addLines(impl_->contacts[0], time, contactLines(grains));
   if (!impl_->bonds.empty()) addLines(impl_->bonds[0], time, bondLines(grains));
@@ -128,6 +131,30 @@ void Frames::add(const Built& built) {
     addWall(impl_->walls[w], time, term.present ? term.mesh : nothing);
   }
   impl_->times.push_back(time);
+}
+
+void writeModes(const std::filesystem::path& folder, const Built& built, std::size_t solid, const fem::Modes& modes,
+                const io::KeyValues& provenance) {
+  const coupling::SolidSide& side = std::as_const(*built.run).solid(solid);
+  const fem::SolidMesh& mesh = built.meshes[solid];
+  Vec3 lower = mesh.X.front(), upper = lower;
+  for (const Vec3& X : mesh.X)
+    for (int c = 0; c < 3; ++c) lower[c] = std::min(lower[c], X[c]), upper[c] = std::max(upper[c], X[c]);
+  const double size = 0.1 * norm(upper - lower);
+  const auto flat = [](const std::vector<Vec3>& vectors) {
+    return std::vector<double>(&vectors[0].x, &vectors[0].x + 3 * vectors.size());
+  };
+  io::VtuSeries series(folder, "modes_" + side.name, provenance, {}, io::FrameFile::vtu);
+  for (std::size_t m = 0; m < modes.shape.size(); ++m) {
+    std::vector<Vec3> u = side.nodes().u;
+    for (std::size_t n = 0; n < u.size(); ++n) u[n] += size * modes.shape[m][n];
+    const double number = static_cast<double>(m + 1);
+    const std::vector<double> moved = flat(u), shape = flat(modes.shape[m]);
+    solid_io::VtuFields fields{.time = number};
+    fields.perPoint.push_back({"displacement", moved, 3});
+    fields.perPoint.push_back({"shape", shape, 3});
+    series.write(number, solid_io::vtuText(mesh, fields, io::withMark(provenance)));
+  }
 }
 
 }  // namespace dovetail::scene

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "dovetail/fem/solve/modes.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/scene/build.hpp"
 
@@ -20,12 +21,21 @@ public:
   Frames(const Built& built, const Scene& scene, const std::filesystem::path& folder, const io::KeyValues& provenance,
          const std::vector<double>& times);
   ~Frames();
-  void add(const Built& built);
+  /// What becomes of the frame before if no time has passed since: files of frames have a time each, and what is kept
+  /// is followed by one 1e-12 s later.
+  enum class SameInstant { replaced, kept };
+  void add(const Built& built, SameInstant before = SameInstant::replaced);
   std::vector<double> times() const;
 
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The modes of a solid as frames of modes_<name>.pvd, with the numbers of the modes, from 1, in the place of times:
+/// `shape` (the largest displacement is 1), and `displacement`, the present one with a tenth of the mesh's extent of
+/// it.
+void writeModes(const std::filesystem::path& folder, const Built& built, std::size_t solid, const fem::Modes& modes,
+                const io::KeyValues& provenance);
 
 }  // namespace dovetail::scene

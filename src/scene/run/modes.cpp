@@ -6,6 +6,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/solve/modes.hpp"
 #include "dovetail/io/time_series.hpp"
+#include "frames.hpp"
 
 namespace dovetail::scene {
 
@@ -46,10 +47,12 @@ Lines findModes(const Built& built, const Scene& scene, std::size_t stage, const
     const coupling::SolidSide& side = built.run->solid(s);
     fem::ModesOptions options{.count = wanted.count, .massFraction = side.mass->fraction()};
     options.linear.method = static_cast<linalg::LinearMethod>(scene.solids[s].linearSolver);
-    const std::vector<double> frequencies =
-        atPlace(scene.stages[stage].where, [&] { return fem::modesOf(*side.model, options); }).frequency;
+    const fem::Modes modes = atPlace(scene.stages[stage].where, [&] { return fem::modesOf(*side.model, options); });
+    const std::vector<double>& frequencies = modes.frequency;
     for (std::size_t m = 0; m < frequencies.size(); ++m)
       table.append({stageNumber(stage), static_cast<double>(s), static_cast<double>(m + 1), frequencies[m]});
+    if (scene.output.frames && std::ranges::count(scene.output.contents, "solids") > 0)
+      writeModes(file.parent_path(), built, s, modes, provenance);
     lines.push_back(lineOf(side.name, frequencies));
   }
   io::writeCsv(file, table, provenance);

@@ -30,7 +30,7 @@ std::int64_t timesWritten(const Plan& plan, const Scene& scene, std::int64_t eve
   std::int64_t count = 1;
   for (std::size_t k = 0; k < plan.stages.size(); ++k)
     if (const auto* const statics = std::get_if<Statics>(&scene.stages[k].kind))
-      count += statics->time ? plan.stages[k] : 1;
+      count += statics->time || statics->arcLength ? plan.stages[k] : 1;
     else if (!std::holds_alternative<FindModes>(scene.stages[k].kind))
       count += std::holds_alternative<Relax>(scene.stages[k].kind) ? 1 : (plan.stages[k] + every - 1) / every;
   return count;
@@ -90,7 +90,7 @@ Frames framesOf(const Built& built, const Scene& scene, const Plan& plan) {
   // A stage in which no time passes replaces the frame before.
   const auto replaced = std::ranges::count_if(scene.stages, [](const Stage& stage) {
     const auto* const statics = std::get_if<Statics>(&stage.kind);
-    return statics && !statics->time;
+    return statics && !statics->time && !statics->arcLength;
   });
   return {timesWritten(plan, scene, plan.frames) - (plan.frames > 0 ? replaced : 0),
           head + bytesOfGrains(grains, count, scene.output.contents) + bytesOfSolids(built, scene.output.contents)};

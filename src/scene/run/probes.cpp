@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "build/changes.hpp"
 #include "build/parts.hpp"
 #include "build/wall_motion.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -175,10 +176,11 @@ Probes::Values Probes::find(const Built& built, const Scene&, const std::string&
 }
 
 template <>
-Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const SupportProbe& kind) {
+Probes::Values Probes::find(const Built& built, const Scene& scene, const std::string& name, const SupportProbe& kind) {
   const std::size_t solid = solidNamed(kind.solid, *built.run);
   const std::vector<int>& set = fem::nodeSet(built.meshes[solid], kind.on);
-  const HeldBy by = holdersOf(built.run->solid(solid), set);
+  HeldBy by = holdersOf(built.run->solid(solid), set);
+  if (changesSupports(scene.solids[solid], scene) && !by.ties) by.supports = true;
   if (!by.supports && !by.ties)
     throw InputError("neither supports nor ties act on the nodes \"" + kind.on + "\" of \"" + kind.solid + "\"", "",
                      "give the solid a support there, or leave the probe out");

@@ -52,7 +52,7 @@ void appendCounts(const Built& built, std::vector<double>& row) {
     row.insert(row.end(), {static_cast<double>(term->bonds.size()), static_cast<double>(term->bonds.brokenSoFar)});
 }
 
-std::vector<std::string> columnsOf(const std::vector<std::string>& channels, const Built& built,
+std::vector<std::string> columnsOf(const std::vector<std::string>& channels, const Built& built, bool followsLoads,
                                    const std::vector<std::string>& probes) {
   std::vector<std::string> names{"time_s", "particles", "limit_s"};
   for (const std::string& channel : channels) names.push_back(columnOf(channel));
@@ -64,8 +64,17 @@ std::vector<std::string> columnsOf(const std::vector<std::string>& channels, con
   if (!insertionsOf(built).empty()) names.insert(names.end(), {"no_room", "entered", "entered_kg"});
   if (grainsLeave(built)) names.insert(names.end(), {"left", "left_kg"});
   if (!bondsOf(built).empty()) names.insert(names.end(), {"bonds", "bonds_broken"});
+  for (std::size_t s = 0; followsLoads && s < built.run->solids(); ++s)
+    names.push_back(built.run->solid(s).name + "_load_factor");
   names.insert(names.end(), probes.begin(), probes.end());
   return names;
+}
+
+bool followsLoads(const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [](const Stage& one) {
+    const auto* const statics = std::get_if<Statics>(&one.kind);
+    return statics && statics->arcLength;
+  });
 }
 
 /// Channels of the run at its start, and those that it may come to have. @param loads  there are load steps
@@ -131,8 +140,9 @@ Series::Series(Built& built, const Scene& scene, SeriesFiles files)
     : channels_(
           channelsOf(built, files.loadSteps,
                      std::ranges::any_of(scene.stages, [](const Stage& one) { return one.changes.has_value(); }))),
+      followsLoads_(followsLoads(scene)),
       probes_(built, scene),
-      table_(columnsOf(channels_, built, probes_.names())),
+      table_(columnsOf(channels_, built, followsLoads_, probes_.names())),
       files_(std::move(files)),
       path_(files_.folder / "series.csv"),
       file_(path_, files_.provenance) {
@@ -184,6 +194,7 @@ void Series::add(Built& built) {
   for (const Vec3& v : {totals.momentum, given}) row.insert(row.end(), {v.x, v.y, v.z});
   for (const auto& [solid, force] : forcesOnSolids(built)) row.insert(row.end(), {force.x, force.y, force.z});
   appendCounts(built, row);
+  for (std::size_t s = 0; followsLoads_ && s < run.solids(); ++s) row.push_back(run.loadFactor(s));
   probes_.add(built, row);
   table_.append(row);
   file_.write(table_);

@@ -51,6 +51,7 @@ public:
 
 private:
   std::vector<std::string> channels_;
+  bool followsLoads_;
   Probes probes_;
   io::TimeSeries table_;
   SeriesFiles files_;

@@ -21,7 +21,8 @@ Frames::Frames(const Built&, const Scene& scene, const std::filesystem::path&, c
 }
 Frames::~Frames() = default;
 std::vector<double> Frames::times() const { return {}; }
-void Frames::add(const Built&) {}
+void Frames::add(const Built&, SameInstant) {}
+void writeModes(const std::filesystem::path&, const Built&, std::size_t, const fem::Modes&, const io::KeyValues&) {}
 
 bool isFrameFile(const std::filesystem::path& file) { return file.extension() == ".pvd"; }
 void compareFrames(const std::filesystem::path&, const std::filesystem::path&, const std::string& name,

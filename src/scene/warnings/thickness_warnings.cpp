@@ -107,9 +107,12 @@ double poissonOf(const SolidMaterial& material) {
       material.law);
 }
 
-double largestPoissonOf(const Solid& solid) {
+/// Of what lies across a part. @param material  number of that of each element
+double largestPoissonOf(const Solid& solid, const std::vector<std::size_t>& material,
+                        const std::vector<std::size_t>& elements) {
+  const std::vector<const SolidMaterial*> materials = materialsOf(solid);
   double largest = -1.0;
-  for (const SolidMaterial* const material : materialsOf(solid)) largest = std::max(largest, poissonOf(*material));
+  for (const std::size_t e : elements) largest = std::max(largest, poissonOf(*materials[material[e]]));
   return largest;
 }
 
@@ -140,6 +143,7 @@ void lookAtThickness(const Built& built, const Scene& scene, std::size_t number,
   const fem::SolidMesh& mesh = built.meshes[number];
   const coupling::SolidSide& side = built.run->solid(number);
   const std::set<std::size_t> masters = mastersOf(side);
+  const std::vector<std::size_t> material = materialByElement(solid, mesh);
   double all = 0.0, bad = 0.0;
   std::vector<std::pair<double, fem::MeshThickness>> found;
   for (const fem::MeshThickness& place : fem::measureThickness(mesh)) {
@@ -147,7 +151,8 @@ void lookAtThickness(const Built& built, const Scene& scene, std::size_t number,
     if (place.length < slender * place.thickness || isHeld(side, masters, place.face, place.normal) ||
         isHeld(side, masters, place.opposite, place.normal) || isOnlyStretched(scene, solid, mesh, place.normal))
       continue;
-    const double stiffness = stiffnessOf(place.shape, solid.formulation, place, largestPoissonOf(solid));
+    const double stiffness =
+        stiffnessOf(place.shape, solid.formulation, place, largestPoissonOf(solid, material, place.elements));
     if (stiffness > 1.0 - tolerated && stiffness < 1.0 + tolerated) continue;
     bad += place.area;
     found.emplace_back(stiffness, place);

@@ -128,9 +128,18 @@ public:
   ///         particles. NumericalError naming solid and load step where there is no equilibrium
   std::vector<std::string> loadStep(std::int64_t step, std::int64_t steps, double time);
 
-  /// Changes parts of a started run between macro steps: gravity, laws, walls, functions of time of loads and supports.
-  /// Forces are found anew; the energy that this adds at once is booked as "changes (minus)". The step stays: one that
-  /// is now beyond the limit is told in grains.passed.
+  /// The next of the steps of equal arcs along the paths of equilibria of all solids, each as long as the first of
+  /// `loadSteps` equal steps; no time passes. From what was out of balance before step 0 to equilibrium under the
+  /// loads, which may fall and rise on the way (fem::followPath). @param step  counted from 0. Once loadFactor is 1 for
+  /// a solid, it stays there. Otherwise as loadStep.
+  std::vector<std::string> followLoads(std::int64_t step, std::int64_t loadSteps);
+  /// Fraction of what was out of balance before load steps that has come on to solid k; 0 before the first ones.
+  double loadFactor(std::size_t k) const;
+
+  /// Changes parts of a started run between macro steps: gravity, laws, walls, functions of time of loads and supports,
+  /// the constraints of solids. Forces are found anew; the energy that this adds at once is booked as
+  /// "changes (minus)", momentum that goes with it as given by "changes". The step stays: one that is now beyond the
+  /// limit is told in grains.passed.
   void change(const std::function<void()>& act);
   /// Sets all velocities to zero, between macro steps; the energy that this takes is booked as "kinetic damping".
   void stop();

@@ -35,11 +35,21 @@ struct ChangingParts {
   std::map<std::string, std::shared_ptr<std::function<double(double)>>> loads{};
 };
 
+/// A support as a stage has left it.
+struct SupportNow {
+  Support support;
+  std::string name;    ///< for messages
+  double since = 0.0;  ///< s: its functions of time count from there
+  /// Displacements of all nodes then, m, which its motion goes on from; null: those that the solid is built with.
+  std::shared_ptr<const std::vector<Vec3>> from{};
+};
+
 /// A run, and data on its parts.
 struct Built {
   std::unique_ptr<coupling::CoupledRun> run;
   std::vector<fem::SolidMesh> meshes;             ///< of the solids, in their order
   std::vector<WallParts> walls;                   ///< of the scene's walls, in their order
+  std::vector<std::vector<SupportNow>> supports;  ///< of the solids, in their order
   std::vector<linalg::LinearForecast> forecasts;  ///< of the solids of a started run
   ChangingParts changing;
   std::vector<std::string> notes;  ///< on decisions that the file leaves open, one sentence each

@@ -29,6 +29,7 @@ struct RunFor {
 struct Statics {
   std::int64_t loadSteps = 10;
   std::optional<double> time;  ///< s, that passes; not given: none
+  bool arcLength = false;      ///< steps of equal arcs, on which the load may fall, in place of equal loads
 };
 /// Free vibrations of the solids as they are then, without grains.
 struct FindModes {
@@ -50,6 +51,13 @@ struct LoadChange {
   Load load;  ///< the set that it is on, its kind and its values
   std::string where;
 };
+/// In place of all supports of these components on the same node set.
+struct SupportChange {
+  std::string solid;
+  Support support;
+  bool present = true;  ///< false: the nodes are let go
+  std::string where;
+};
 /// At the start of a stage. Functions of time count from there.
 struct Changes {
   std::optional<Vec3> gravity;
@@ -57,6 +65,7 @@ struct Changes {
   std::vector<PairLaw> contacts;
   std::vector<WallChange> walls;
   std::vector<LoadChange> loads;
+  std::vector<SupportChange> supports;
   std::string where;
 };
 struct Stage {

@@ -19,6 +19,7 @@ struct MeshThickness {
   double layers = 0.0;         ///< thickness over the mean extent, along the line, of the elements that it crosses
   double length = 0.0;         ///< of the longest line across the first one's middle, in the mesh, m
   double elementLength = 0.0;  ///< mean extent of the elements that it crosses, along it, m
+  std::vector<std::size_t> elements;  ///< that the line crosses
 };
 
 /// Of up to `most` faces that are spread over the boundary; only where the opposite face is about parallel (30°): at

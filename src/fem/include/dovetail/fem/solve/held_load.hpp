@@ -22,6 +22,8 @@ public:
   /// s goes from `before` at time `from` to `after` at time `to`, s, and stays; at once if the times are equal.
   void release(double before, double after, double from, double to);
   bool holds() const { return !force_.empty(); }
+  /// Whether R is zero.
+  bool isIdle() const;
   void end() { *this = {}; }
   /// s at a time, s.
   double factor(double t) const;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/fem/solve/linear_solver.hpp"
 
@@ -51,6 +52,14 @@ struct StaticStep {
   bool byMotion = false;  ///< Newton's method had failed, and the nodes moved there
 };
 
+/// There is no equilibrium within the smallest step.
+class NoEquilibrium : public NumericalError {
+public:
+  NoEquilibrium(const std::string& why, const std::string& where, const std::string& remedy)
+      : NumericalError(why, where, remedy), reason(why) {}
+  std::string reason;  ///< alone
+};
+
 struct StaticReport {
   std::vector<StaticStep> steps;
   int cuts = 0;  ///< steps that were tried again with a smaller one
@@ -78,7 +87,7 @@ using StaticObserver = std::function<bool(const Model& model, const StaticStep& 
 /// Takes the model from model.t to tEnd through equilibria; loads and prescribed motions are functions of t. Time is
 /// real for laws that creep, relax or depend on rates; velocities mean nothing. tEnd = model.t: to the equilibrium of
 /// that instant, in one step in which no time passes.
-/// @throws NumericalError, with the reason, if the smallest step fails, whatever the terms or the solver threw; what
+/// @throws NoEquilibrium, with the reason, if the smallest step fails, whatever the terms or the solver threw; what
 ///         else is thrown passes through: linalg::FactorMemoryError, InputError for tEnd < model.t, options out of
 ///         range, constraints at odds. The model is then in its last equilibrium.
 StaticReport solveStatics(Model& model, double tEnd, const StaticOptions& options = {},
@@ -107,6 +116,18 @@ struct ArcLengthOptions {
 /// when the observer returns false, at tEnd exactly, or when maxSteps are done.
 /// @throws as solveStatics
 StaticReport followPath(Model& model, double tEnd, const ArcLengthOptions& options,
+                        const StaticObserver& observer = {});
+
+/// A path of a parameter of the caller's, from 0 on, which several calls may follow.
+struct ParameterPath {
+  std::function<void(double)> set;         ///< puts a value of the parameter in force
+  double at = 0.0;                         ///< in the last equilibrium
+  double length = 0.0, firstLength = 0.0;  ///< of the next and of the first step, m; 0: the path has not begun
+  std::vector<Vec3> lastMove;              ///< m
+};
+/// The same for such a parameter in the place of t, which stands still; options count in its unit.
+/// @throws as solveStatics
+StaticReport followPath(Model& model, ParameterPath& path, double end, const ArcLengthOptions& options,
                         const StaticObserver& observer = {});
 
 }  // namespace dovetail::fem
