@@ -18,7 +18,7 @@ using io::test::ScratchFolder;
 using io::test::writeText;
 
 /// A grain on a spring-like wall: its energy is off by what the step leaves.
-const char* const scene = R"({
+const char* const bouncing = R"({
   "title": "A grain bounces", "let": {"speed": "1 m/s", "share": 0.1}, "gravity": [0, 0, 0],
   "contact": {"law": "linear", "stiffness": 1e4, "restitution": 1},
   "particles": [{"from": "list", "density": 2500,
@@ -31,7 +31,7 @@ const char* const scene = R"({
 struct Bounce {
   ScratchFolder folder;
   std::string file = (folder / "bounce.json").string(), out = (folder / "out").string();
-  Bounce() { writeText(file, scene); }
+  Bounce() { writeText(file, bouncing); }
 };
 
 TEST(StudyVerb, AValueThatCannotBeIsARowThatSaysWhy) {

@@ -42,20 +42,32 @@ public:
   Integral(TimeFunction velocity, std::function<double()> piece)
       : velocity_(std::move(velocity)), pieceNow_(std::move(piece)) {}
   double operator()(double t) {
-    if (const double piece = pieceNow_(); piece != piece_) piece_ = piece, sums_ = {0.0}, last_ = {NAN, 0.0};
+    if (const double piece = pieceNow_(); piece != piece_) {
+      piece_ = piece;
+      last_ = {NAN, 0.0};
+      startAgain();
+    }
     if (t == last_.first) return last_.second;  // many nodes ask for the same time
     last_ = {t, upTo(t)};
     return last_.second;
   }
 
 private:
+  void startAgain() {
+    first_ = 0;
+    sums_ = {0.0};
+  }
   double upTo(double t) {
     const auto whole = static_cast<std::size_t>(std::max(0.0, std::floor(t / piece_)));
-    while (sums_.size() <= whole) {
-      const double from = static_cast<double>(sums_.size() - 1) * piece_;
+    if (whole < first_) startAgain();
+    while (first_ + sums_.size() <= whole) {
+      const double from = static_cast<double>(first_ + sums_.size() - 1) * piece_;
       sums_.push_back(sums_.back() + over(from, from + piece_));
+      if (sums_.size() < kept) continue;
+      sums_.erase(sums_.begin(), sums_.begin() + kept / 2);
+      first_ += kept / 2;
     }
-    return sums_[whole] + over(static_cast<double>(whole) * piece_, t);
+    return sums_[whole - first_] + over(static_cast<double>(whole) * piece_, t);
   }
   double over(double from, double to) const {
     const double half = 0.5 * (to - from), middle = 0.5 * (from + to), out = std::sqrt(0.6) * half;
@@ -64,6 +76,8 @@ private:
   TimeFunction velocity_;
   std::function<double()> pieceNow_;
   double piece_ = 0.0;
+  static constexpr std::size_t kept = 4096;  // the latest sums: times are asked for one after the other
+  std::size_t first_ = 0;                    // whole pieces in the first of them
   std::vector<double> sums_{0.0};
   std::pair<double, double> last_{NAN, 0.0};
 };
@@ -123,7 +137,7 @@ Travel travelOf(const TimeValue& displacement, const Scene& scene, const StepOf&
   const auto path = [f = functionOf(displacement, scene)](double t) { return t < 0.0 ? 2.0 * f(0.0) - f(-t) : f(t); };
   return {path, [path, step](double t) {
             const double h = step();
-            return (path(t + h) - path(t - h)) / (2.0 * h);
+            return (8.0 * (path(t + h) - path(t - h)) - (path(t + 2.0 * h) - path(t - 2.0 * h))) / (12.0 * h);
           }};
 }
 
@@ -133,7 +147,7 @@ Travel travelAt(const TimeValue& velocity, const Scene& scene, const StepOf& ste
   const auto speed = [f = functionOf(velocity, scene)](double t) { return f(std::max(0.0, t)); };
   const auto piece = [stepNow, before = 1e-5 * durationOf(scene)] {
     const double step = stepNow ? stepNow() : 0.0;
-    return step > 0.0 ? 4.0 * step : before;
+    return step > 0.0 ? 0.5 * step : before;
   };
   const auto integral = std::make_shared<Integral>(speed, piece);
   return {[integral](double t) { return (*integral)(t); }, speed};

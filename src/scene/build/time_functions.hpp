@@ -32,10 +32,10 @@ struct Travel {
 /// Time step of the run, s; 0 before it has one. How long the scene runs has no part in what functions give then.
 using StepOf = std::function<double()>;
 StepOf stepOf(const coupling::CoupledRun& run);
-/// Of a displacement: the velocity is its central difference over a tenth of the step on either side.
+/// Of a displacement: the velocity is its central difference of fourth order with spacings of a tenth of the step.
 Travel travelOf(const TimeValue& displacement, const Scene& scene, const StepOf& step = {});
-/// Of a velocity: integrated by Gauss' rule of three points over pieces of four steps, from t = 0 on, so that it is the
-/// same at the same time, whatever was asked for before. Without a step: pieces of 1e-5 of the time that the scene
+/// Of a velocity: integrated by Gauss' rule of three points over pieces of half a step, from t = 0 on, so that it is
+/// the same at the same time, whatever was asked for before. Without a step: pieces of 1e-5 of the time that the scene
 /// runs.
 Travel travelAt(const TimeValue& velocity, const Scene& scene, const StepOf& step = {});
 
