@@ -55,10 +55,10 @@ void BodyTerm::check(const Model& m) const {
 double BodyTerm::move(Model& m, const Step& step) {
   if (step.closing > 0.0) {
     kickBodies(bodies, 0.5 * step.closing);
-    prescribe(m, m.step, Half::second);
+    moveDriven(m, m.step, Half::second);
   }
   kickBodies(bodies, 0.5 * step.dt);
-  prescribe(m, step, Half::first);
+  moveDriven(m, step, Half::first);
   driftBodies(bodies, step.dt);
   for (const DriveTerm* drive : std::as_const(m.terms).all<DriveTerm>()) drive->turnBodies(m, *this, step);
   clearForces(bodies);
@@ -69,7 +69,7 @@ double BodyTerm::move(Model& m, const Step& step) {
   return moved;
 }
 
-void BodyTerm::prescribe(Model& m, const Step& step, Half half) {
+void BodyTerm::moveDriven(Model& m, const Step& step, Half half) {
   for (DriveTerm* drive : m.terms.all<DriveTerm>()) drive->prescribeBodies(m, *this, step, half);
 }
 
@@ -177,7 +177,7 @@ void BodyTerm::meanMotion(const Model& m, const Step& step, std::span<Vec3> v, s
 
 void BodyTerm::close(Model& m, double dt) {
   kickBodies(bodies, 0.5 * dt);
-  prescribe(m, m.step, Half::second);
+  moveDriven(m, m.step, Half::second);
   placeMembers(bodies, clumps, m.pairs.periodicity(), m.particles);
   placeCarriedWalls(m, bodies, m.time);
 }

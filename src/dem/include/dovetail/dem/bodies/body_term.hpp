@@ -46,7 +46,7 @@ public:
 
 private:
   void damp(Model& m);
-  void prescribe(Model& m, const Step& step, Half half);
+  void moveDriven(Model& m, const Step& step, Half half);
   struct Mean;
   Mean meanOf(const Model& m, const Step& step) const;
   int known_ = 0;   // those behind have just come, and are yet to be booked or in the midst of a step
