@@ -22,13 +22,13 @@ void PrimitiveWallTerm::addPartners(const Model& m, std::vector<ImpactPartner>& 
     const Vec3& x = m.particles.x.front();
     box.lower = box.upper = x - dot(x - wall.point, wall.axis) * wall.axis;
   }
-  double lever = 0.0;
+  double farthest = 0.0;
   for (std::size_t i = 0; wall.servo && wall.servo->turns && i < m.particles.size(); ++i)
-    lever = std::max(lever, wall.servo->leverOf(m.particles.x[i]));
+    farthest = std::max(farthest, wall.servo->leverOf(m.particles.x[i]));
   partners.push_back(
       {.name = "a wall",
        .material = wall.material,
-       .inverseMass = wall.servo ? wall.servo->inverseMass(lever) : 0.0,
+       .inverseMass = wall.servo ? wall.servo->inverseMass(farthest) : 0.0,
        .speed = norm(wall.velocity) + norm(wall.surfaceVelocity) + norm(wall.angularVelocity) * wall.radius,
        .box = box,
        .of = &wall});
