@@ -91,4 +91,10 @@ PICTURES = (
             draw="--warp 100 --azimuth 25 --elevation 12", lines=('"sets"', '"regions"')),
     Picture("shaft", "Stress is largest in the middle of the sides and small in the edges and on the axis.",
             draw="--warp 5 --size 700 900", lines=('"supports"',)),
+    Picture("arch", "The half of the arch after it has snapped through: stress is that of a straight bar, nearly uniform.",
+            draw="--azimuth 0 --elevation 0", lines=('"stages"',)),
+    Picture("plucked", "The tip, which its support has let go, swings: 6 mm down in its second period.", frame=0.6,
+            draw="--warp 5 --solids displacement", lines=('"stages"',)),
+    Picture("frequencies", "The third mode of a cantilever, the second about its softer axis: one place along it stands still.",
+            draw="--mode 3", lines=('"stages"',)),
 )
