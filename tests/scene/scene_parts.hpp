@@ -15,6 +15,16 @@ inline const std::string law =
     R"("contact": {"law": "linear", "stiffness": 1e4, "restitution": 0.8, "friction": 0.3},)";
 inline const std::string end = R"("steps": {"dt": 1e-5}, "stages": [{"do": "run", "time": 1e-3}])";
 
+/// The message with which a scene is not built; empty if it is.
+inline std::string refusalOf(const Scene& scene) {
+  try {
+    build(scene);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 inline Scene sceneOf(const std::string& middle, const std::filesystem::path& folder = "/") {
   return sceneFromText("{" + law + middle + end + "}", "s.json", folder);
 }

@@ -25,14 +25,6 @@ void begin(Built& built, const Scene& scene, std::size_t stage) {
 }
 double channel(Built& built, const std::string& name) { return built.run->ledger().joules(name); }
 Vec3 momentum(Built& built) { return built.run->totals().momentum; }
-std::string refusalOf(const Scene& scene) {
-  try {
-    build(scene);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
-}
 const std::string letGo = R"({"solid": "bar", "on": "z+", "present": false})";
 
 class ChangedSupports : public testing::TestWithParam<const char*> {

@@ -51,6 +51,7 @@ Balance::Balance(Model& model, double relative, double absolute)
       loads_(forces_.size()),
       scratch_(forces_.size()),
       residual_(dofs_.size()) {
+  if (model.nodes.X.empty()) return;
   Vec3 lower = model.nodes.X.front(), upper = lower;
   for (const Vec3& X : model.nodes.X)
     for (int c = 0; c < 3; ++c) lower[c] = std::min(lower[c], X[c]), upper[c] = std::max(upper[c], X[c]);
