@@ -30,6 +30,14 @@ void MatrixPattern::add(std::span<const int> group) {
   }
 }
 
+void MatrixPattern::add(const NodePairs& pairs) {
+  for (std::size_t n = 0; n < pairs.nodes(); ++n) {
+    const auto first = pairs.columns().begin() + pairs.offsets()[n],
+               last = pairs.columns().begin() + pairs.offsets()[n + 1];
+    neighbours_[n].insert(neighbours_[n].end(), first, last);
+  }
+}
+
 NodePairs::NodePairs(MatrixPattern pattern) : patternId_(nextPatternId()) {
   offsets_.assign(1, 0);
   for (std::size_t n = 0; n < pattern.neighbours_.size(); ++n) {

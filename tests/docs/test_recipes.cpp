@@ -21,6 +21,7 @@
 #include "dovetail/fem/laws/point_law.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/solve/statics.hpp"
+#include "dovetail/fem/terms/gradient_energy.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 
@@ -102,6 +103,12 @@ TEST(Recipes, EquilibriumAtTheStart) {
 TEST(Recipes, ACantileverInPlaneStrain) {
 #include "solid-meshes/mesh.inc"
   EXPECT_EQ(model.t, 1.0);
+}
+
+TEST(Recipes, BandsWithAWidth) {
+  const auto soil = fem::pointMaterial(fem::neoHookean(5e6, 0.25, 1450.0));
+#include "solid-meshes/bands.inc"
+  EXPECT_EQ(model.terms.back()->name(), "gradient of F");
 }
 
 TEST(Recipes, ATableOfMaterials) {

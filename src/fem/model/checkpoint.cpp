@@ -4,7 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "motion/force_sum.hpp"
+#include "dovetail/fem/elements/solid.hpp"
 #include "motion/run_state.hpp"
 
 namespace dovetail::fem {
@@ -57,7 +57,7 @@ void adopt(const SavedMotion& motion, Model& model) {
   for (const auto& term : model.terms) {
     ByteWriter own;
     term->save(own);
-    state.terms.push_back(detail::isElements(*term) ? memoryOf(motion, *term) : own.bytes());
+    state.terms.push_back(dynamic_cast<const Solid*>(term.get()) ? memoryOf(motion, *term) : own.bytes());
   }
   detail::adopt(std::move(state), model);
 }

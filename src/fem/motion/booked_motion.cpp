@@ -93,7 +93,7 @@ void BookedMotion::giveImpulses(double h, bool changes) {
     if (!changes) atSupports_ = supportKick(model.nodes, motion.mass(), {}, model.nodes.f, 1.0).impulse;
   }
   for (std::size_t k = 0; k < outside_.size(); ++k)
-    if (!motion.loads()[k].empty() && !detail::isElements(*model.terms[k]))
+    if (!motion.loads()[k].empty() && !model.terms[k]->actsWithin())
       impulses.give(model.terms[k]->name(), 0.5 * h * outside_[k]);
   impulses.give("supports", changes ? supportKick(model.nodes, motion.mass(), before_, model.nodes.f, 0.5 * h).impulse
                                     : 0.5 * h * atSupports_);

@@ -3,16 +3,13 @@
 
 #include <vector>
 
-#include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "solve/newton_tools.hpp"
 
 namespace dovetail::fem::detail {
 
-/// Elements act among their nodes. All else may act from outside.
-inline bool isElements(const Term& term) { return dynamic_cast<const Solid*>(&term) != nullptr; }
 /// Whether its force is kept apart: its work, or its impulse, is booked as it is done.
-inline bool isKeptApart(const Term& term) { return !term.hasEnergy() || !isElements(term); }
+inline bool isKeptApart(const Term& term) { return !term.hasEnergy() || !term.actsWithin(); }
 
 struct ForceSum {
   std::vector<std::vector<Vec3>> loads;  ///< per term, of those that are kept apart; else empty

@@ -97,7 +97,7 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
     for (std::size_t k = 0; k < rate.size(); ++k)
       mean.u.push_back(0.5 * (solver.startDisplacement()[k] + model.nodes.u[k]));
     for (std::size_t k = 0; k < model.terms.size(); ++k)
-      if (!detail::isElements(*model.terms[k]))
+      if (!model.terms[k]->actsWithin())
         impulses.give(model.terms[k]->name(), h * momentaOf(mean, solver.givenLoad(k)));
     // Ties pull at their masters; through a mass that is not lumped, prescribed motion pulls at its neighbours.
     const bool everyRow = dofs.hasTies() || (dofs.hasMotion() && !mass.isDiagonal());

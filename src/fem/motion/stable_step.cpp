@@ -7,7 +7,6 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/model/model_mass.hpp"
-#include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
 #include "dovetail/linalg/largest_eigenvalue.hpp"
 
@@ -51,34 +50,11 @@ struct Pull {
   std::string term;
 };
 
-/// Row sums of a term's tangent, N/m per node.
-std::vector<double> stiffnessOf(Term& term, const Model& model) {
-  std::vector<double> k(model.nodes.X.size(), 0.0);
-  if (const auto* const plane = dynamic_cast<const ContactPlane*>(&term)) {
-    plane->addStiffness(k);
-    return k;
-  }
-  if (!term.hasEnergy()) return k;
-  linalg::MatrixPattern pattern(model.nodes.X.size());
-  term.addPattern(pattern);
-  linalg::BlockMatrix K(std::move(pattern));
-  term.addTangent(model.nodes, {model.t, 0.0}, K);
-  for (std::size_t n = 0; n < k.size(); ++n)
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0.0;
-      for (int place = K.offsets()[n]; place < K.offsets()[n + 1]; ++place)
-        for (std::size_t d = 0; d < 3; ++d)
-          sum += std::abs(K.values()[9 * static_cast<std::size_t>(place) + 3 * c + d]);
-      k[n] = std::max(k[n], sum);
-    }
-  return k;
-}
-
 Pull strongestPull(const Model& model) {
   Pull most;
   for (const auto& term : model.terms) {
-    if (dynamic_cast<const Solid*>(term.get()) != nullptr) continue;
-    const std::vector<double> k = stiffnessOf(*term, model);
+    std::vector<double> k(model.nodes.X.size(), 0.0);
+    term->addStiffness(model.nodes, {model.t, 0.0}, k);
     Pull own;
     for (std::size_t n = 0; n < k.size(); ++n)
       if (model.nodes.fixed[n] != allComponents && k[n] > own.rate * model.nodes.mass[n])

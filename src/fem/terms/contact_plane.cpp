@@ -177,7 +177,8 @@ public:
     return report;
   }
 
-  void addStiffness(std::span<double> k) const override {
+  /// As if all faces touched.
+  void addStiffness(const Nodes&, const Instant&, std::span<double> k) override {
     const double penalty = law_.friction > 0.0 ? std::max(law_.penalty, law_.tangentialPenalty) : law_.penalty;
     for (const Spot& spot : spots_) {
       double sum = 0.0;

@@ -1,5 +1,7 @@
 #include "solid_cells.hpp"
 
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
 #include "elements/bricks/brick_cache.hpp"
 #include "elements/lanes/small_tensors.hpp"
 #include "mesh/cell_jacobian.hpp"
@@ -34,7 +36,77 @@ void visitMassPoints(const SolidCells& cells, std::size_t element, Visit&& visit
   }
 }
 
+/// Numbers of the elements asked for, ascending.
+std::vector<int> chosenElements(const SolidMesh& mesh, const std::string& set) {
+  if (!set.empty()) {
+    const std::vector<int>& chosen = elementSet(mesh, set);
+    if (chosen.empty())
+      throw InputError("the element set \"" + set + "\" is empty", "elements", "name a set with elements");
+    return chosen;
+  }
+  std::vector<int> all(mesh.elementCount());
+  for (std::size_t e = 0; e < all.size(); ++e) all[e] = static_cast<int>(e);
+  return all;
+}
+
+void fillBatches(std::span<const int> node, SolidCells& cells) {
+  const std::size_t n = cells.nodes;
+  cells.batchNode.resize(cells.batches() * n);
+  for (std::size_t b = 0; b < cells.batches(); ++b)
+    for (std::size_t lane = 0; lane < laneCount; ++lane) {
+      const std::size_t e = laneCount * b + std::min(lane, cells.inUse(b) - 1);
+      for (std::size_t a = 0; a < n; ++a) cells.batchNode[b * n + a][lane] = node[n * e + a];
+    }
+}
+
 }  // namespace
+
+void requireFraction(std::span<const double> fraction, std::size_t nodes) {
+  if (fraction.empty()) return;
+  if (fraction.size() != nodes)
+    throw InputError(
+        "there are " + std::to_string(fraction.size()) + " fractions for " + std::to_string(nodes) + " nodes",
+        "elements", "give one per node, or none");
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (!(fraction[n] >= 0.0 && fraction[n] <= 1.0))
+      throw InputError("the fraction of node " + std::to_string(n) + " is " + formatNumber(fraction[n]), "elements",
+                       "give numbers from 0 to 1");
+}
+
+SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::span<const double> fraction) {
+  SolidCells cells{};
+  cells.X = mesh.X;
+  cells.thickness = mesh.thickness;
+  cells.fraction.assign(fraction.begin(), fraction.end());
+  std::vector<int> node;
+  const std::vector<int> chosen = chosenElements(mesh, set);
+  std::size_t next = 0;
+  int first = 0;
+  for (const ElementGroup& group : mesh.groups) {
+    const int last = first + static_cast<int>(group.size());
+    for (; next < chosen.size() && chosen[next] < last; ++next) {
+      if (!cells.number.empty() && cells.shape != group.shape)
+        throw InputError(
+            std::string("the elements are of several shapes, ") + name(cells.shape) + " and " + name(group.shape),
+            "elements", "make one solid of each shape");
+      cells.shape = group.shape;
+      cells.nodes = static_cast<std::size_t>(nodesOf(group.shape));
+      const auto start = group.node.begin() + static_cast<std::ptrdiff_t>(cells.nodes) * (chosen[next] - first);
+      const std::span<const int> own(start, cells.nodes);
+      if (!fraction.empty() &&
+          std::ranges::all_of(own, [&](int n) { return fraction[static_cast<std::size_t>(n)] == 0.0; }))
+        continue;
+      node.insert(node.end(), own.begin(), own.end());
+      cells.number.push_back(chosen[next]);
+    }
+    first = last;
+  }
+  if (cells.number.empty())
+    throw InputError("every element has the fraction 0", "elements",
+                     "leave the solid out, or give some nodes a fraction");
+  fillBatches(node, cells);
+  return cells;
+}
 
 std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& rule) {
   const std::size_t n = cells.nodes, q = rule.point.size();

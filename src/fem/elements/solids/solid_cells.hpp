@@ -28,6 +28,12 @@ struct SolidCells {
   int nodeOf(std::size_t e, std::size_t a) const { return batchNode[nodes * (e / laneCount) + a][e % laneCount]; }
 };
 
+/// @throws InputError unless there is none, or one per node within 0 … 1
+void requireFraction(std::span<const double> fraction, std::size_t nodes);
+/// The elements of a set, of all if its name is empty, but those whose nodes all have the fraction 0.
+/// @throws InputError if they are of several shapes, or none is left
+SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::span<const double> fraction);
+
 /// ∂ξ/∂X, row-major, and weight (det ∂X/∂ξ times that of the rule and the fraction; 0 in lanes that repeat) at one
 /// point of a batch.
 struct alignas(laneBytes) PointGeometry {

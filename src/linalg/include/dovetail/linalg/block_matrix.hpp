@@ -9,12 +9,16 @@
 
 namespace dovetail::linalg {
 
+class NodePairs;
+
 /// Groups of nodes that share a term's tangent.
 class MatrixPattern {
 public:
   explicit MatrixPattern(std::size_t nodes) : neighbours_(nodes) {}
   /// Couples all nodes of the group with each other.
   void add(std::span<const int> group);
+  /// Couples all pairs of another matrix.
+  void add(const NodePairs& pairs);
   std::size_t nodes() const { return neighbours_.size(); }
 
 private:

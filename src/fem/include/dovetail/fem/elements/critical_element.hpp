@@ -8,7 +8,7 @@ namespace dovetail::fem {
 struct StableStep : StepLimit {
   int element = -1;   ///< number in its mesh
   std::string solid;  ///< name of its term
-  int node = -1;      ///< that springs or planes pull at more than elements do; then `solid` is their term
+  int node = -1;      ///< at which another term pulls more than elements do; then `solid` is that term
 };
 
 }  // namespace dovetail::fem

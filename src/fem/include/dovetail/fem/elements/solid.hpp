@@ -53,6 +53,9 @@ struct SolidOptions {
 /// Elements of a mesh with one material or one field of points.
 class Solid : public Term {
 public:
+  bool actsWithin() const final { return true; }
+  /// Nothing: stableStep() says what an explicit step can be.
+  void addStiffness(const Nodes&, const Instant&, std::span<double>) final {}
   virtual std::size_t size() const = 0;
   /// Bytes of the caches and of history.
   virtual std::size_t memory() const = 0;

@@ -62,6 +62,12 @@ public:
   /// C += −∂f/∂v, kg/s.
   virtual void addDamping(const Nodes&, const Instant&, linalg::BlockMatrix&) {}
   virtual bool isSymmetric() const { return true; }
+  /// k += row sums of its tangent at the present displacement, N/m: the largest of the three of each node, or a bound
+  /// of it. Explicit steps ask all but elements, which have a bound of their own. Here: of addTangent(), 0 without
+  /// energy.
+  virtual void addStiffness(const Nodes& nodes, const Instant& now, std::span<double> k);
+  /// Whether it acts among the nodes alone, as elements do: its forces have no sum and no moment.
+  virtual bool actsWithin() const { return false; }
 
   /// Whether energy() is a function of the state whose negative gradient is the force (up to what commit() books).
   /// Work of terms without is booked by the integrator as it is done.

@@ -6,9 +6,10 @@
 
 namespace dovetail::fem {
 
-/// Of the stiffest single element of all solids at the present displacement, with its lumped mass, and of the springs
-/// to the ground and the contact planes (as if these were touched) at the node at which they pull most: 2/√(ω_e² +
-/// k/m). Never above the limit of the assembled model, but for loads that follow the body.
+/// Of the stiffest single element of all solids at the present displacement, with its lumped mass, and of what
+/// else stores energy (springs to the ground, contact planes as if they were touched, energies of gradients) at the
+/// node at which it pulls most: 2/√(ω_e² + k/m) with the row sums k of Term::addStiffness. Never above the limit of the
+/// assembled model, but for loads that follow the body.
 /// @param of  what the owner is called by, "element 3 of "beam""; empty: the name of the term
 /// @throws InputError if the model has no solid
 StableStep stableStep(Model& model, const std::string& of = {});

@@ -48,8 +48,6 @@ public:
     double largestPressure = 0.0;  ///< Pa
   };
   virtual Report report(const Nodes& nodes, const Instant& now) const = 0;
-  /// k += row sums of its tangent for each node, N/m, as if all faces touched.
-  virtual void addStiffness(std::span<double> k) const = 0;
 };
 
 /// A penalty for faces of a material, Pa/m: ten times its confined modulus at rest over the mean size √A of the faces
