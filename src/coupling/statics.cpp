@@ -28,6 +28,12 @@ private:
   fem::Model& model_;
 };
 
+fem::NewtonOptions newtonOf(const SolidOptions& options) {
+  fem::NewtonOptions newton = options.newton;
+  newton.linear = options.implicitOptions.linear;
+  return newton;
+}
+
 void add(const fem::StaticReport& report, SolidStepper::StaticWork& works) {
   works.loads += report.loadWork;
   works.dissipated += report.dissipated;
@@ -59,8 +65,8 @@ void SolidStepper::stop() {
 bool SolidStepper::loadStep(double after, double time) {
   fem::Model& model = *model_;
   const double before = held.factor(model.t), length = time - model.t, worked = held.work();
-  fem::StaticOptions options{.smallestStep = smallestPart};
-  options.newton.linear = options_.implicitOptions.linear;
+  fem::StaticOptions options{
+      .newton = newtonOf(options_), .smallestStep = smallestPart, .motionIterations = options_.motionIterations};
   StaticWork works;
   {
     const Lent lent(model, held);
@@ -88,7 +94,8 @@ bool SolidStepper::followLoad(std::int64_t loadSteps) {
   } else {
     const Lent lent(*model_, held);
     path.set = [this](double factor) { held.release(1.0 - factor, 1.0 - factor, 0.0, 0.0); };
-    fem::ArcLengthOptions options{.firstStep = 1.0 / static_cast<double>(loadSteps),
+    fem::ArcLengthOptions options{.newton = newtonOf(options_),
+                                  .firstStep = 1.0 / static_cast<double>(loadSteps),
                                   .largestStep = std::abs(path.firstLength),
                                   .smallestFraction = smallestPart,
                                   .maxSteps = 1};

@@ -105,9 +105,14 @@ void requirePlane(const rve::Rve& cell, const Eigen::Matrix3d& F) {
                    "use quad4 or quad8 with Formulation::standard or reduced; meanDilatation changes F33");
 }
 
+struct CellOwner {
+  virtual ~CellOwner() = default;
+  virtual rve::Rve committed() const = 0;
+};
+
 /// The committed cell, and what the last answer made of it.
 template <class Update>
-class CellPoint final : public fem::FieldPoint {
+class CellPoint final : public fem::FieldPoint, public CellOwner {
 public:
   CellPoint(const rve::Rve& cell, Update update) : cell_(cell), committed_(cell.state), update_(update) {}
 
@@ -136,6 +141,11 @@ public:
     known_ = false;
   }
   void revert() override { known_ = false; }
+  rve::Rve committed() const override {
+    rve::Rve cell = cell_;
+    cell.state = committed_;
+    return cell;
+  }
 
   void save(ByteWriter& archive) const override {
     rve::writeState(cell_, committed_, archive);
@@ -188,6 +198,12 @@ std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double u
 }
 
 }  // namespace
+
+std::optional<rve::Rve> committedCell(const fem::PointField& field, std::size_t point) {
+  const auto* const owner = dynamic_cast<const CellOwner*>(field.point(point));
+  if (!owner) return {};
+  return owner->committed();
+}
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings) {
   return fieldOf(std::move(samples), settings.unbalanced, QuasiStatic{settings});

@@ -155,6 +155,8 @@ public:
     points_ = std::move(loaded);
   }
 
+  const FieldPoint* point(std::size_t p) const override { return points_.at(p).get(); }
+
 private:
   std::vector<std::unique_ptr<FieldPoint>> newPoints() const {
     std::vector<std::unique_ptr<FieldPoint>> points;

@@ -7,7 +7,6 @@
 #include "contact_point.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
 #include "mesh/faces.hpp"
 
@@ -243,13 +242,13 @@ private:
 
 }  // namespace
 
-double contactPenalty(const SolidMesh& mesh, std::span<const Face> faces, const PointMaterial& material) {
+double contactPenalty(const SolidMesh& mesh, std::span<const Face> faces, double confinedModulus) {
   requireFaces(faces, mesh, "contactPenalty");
   double area = 0.0;
   for (const Spot& spot : makeSpots(mesh, faces)) area += spot.area;
   const double mean = area / static_cast<double>(faces.size());
   const double size = dimensionOf(mesh) == 2 ? mean / mesh.thickness : std::sqrt(mean);
-  return 10.0 * moduliAtRest(material).confined / size;
+  return 10.0 * confinedModulus / size;
 }
 
 std::shared_ptr<ContactPlane> makeContactPlane(const SolidMesh& mesh, std::span<const Face> faces, const Plane& plane,

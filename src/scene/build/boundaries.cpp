@@ -221,7 +221,8 @@ void add(const Loaded& to, const Load& all, const TractionLoad& load) {
 }
 
 /// Of the stiffest material behind some faces, Pa/m.
-double stiffestPenalty(const fem::SolidMesh& mesh, const std::vector<fem::Face>& faces, const Solid& solid) {
+double stiffestPenalty(const fem::SolidMesh& mesh, const std::vector<fem::Face>& faces, const Solid& solid,
+                       const Built& built) {
   std::vector<char> isOnFace(mesh.X.size(), 0);
   for (const fem::Face& face : faces)
     for (int k = 0; k < fem::nodesOf(face.shape); ++k)
@@ -234,19 +235,19 @@ double stiffestPenalty(const fem::SolidMesh& mesh, const std::vector<fem::Face>&
     for (std::size_t e = 0; e < group.size(); ++e, ++element) {
       const auto nodes = static_cast<std::size_t>(fem::nodesOf(group.shape));
       const auto first = group.node.begin() + static_cast<std::ptrdiff_t>(e * nodes);
-      // As many nodes as a face has at least.
+      // As many nodes as a face has at least: 3, in plane strain 2.
       if (std::count_if(first, first + static_cast<std::ptrdiff_t>(nodes),
-                        [&](int n) { return isOnFace[static_cast<std::size_t>(n)] != 0; }) >= 3)
+                        [&](int n) { return isOnFace[static_cast<std::size_t>(n)] != 0; }) >= fem::dimensionOf(mesh))
         behind.insert(material[element]);
     }
   double largest = 0.0;
   for (const std::size_t m : behind)
-    largest = std::max(largest, fem::contactPenalty(mesh, faces, *makeMaterial(*materials[m])));
+    largest = std::max(largest, fem::contactPenalty(mesh, faces, confinedModulusOf(*materials[m], built)));
   return largest;
 }
 
 void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std::size_t number, const Scene& scene,
-         const StepOf& step) {
+         const Built& built) {
   const SolidPlane& plane = solid.planes[number];
   if (norm(plane.normal) == 0.0)
     throw InputError("the normal has no length", "", "give it a direction, such as [0, 0, 1]");
@@ -256,10 +257,10 @@ void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std:
                               .name = "plane " + std::to_string(number) + " on " + plane.on};
   // With ten times the modulus explicit steps would be a third as long.
   if (!plane.stiffness.word.empty())
-    options.penalty = (solid.implicitSteps ? 1.0 : 0.1) * stiffestPenalty(mesh, faces, solid);
+    options.penalty = (solid.implicitSteps ? 1.0 : 0.1) * stiffestPenalty(mesh, faces, solid, built);
   fem::Plane rigid{.point = plane.point, .normal = plane.normal};
   const bool moves = plane.displacement || !isConstant(plane.velocity) || norm(constantOf(plane.velocity)) > 0.0;
-  if (moves) rigid.motion = pathOf(plane.velocity, plane.displacement, scene, step).displacement;
+  if (moves) rigid.motion = pathOf(plane.velocity, plane.displacement, scene, stepOf(*built.run)).displacement;
   if (!solid.state &&
       std::ranges::all_of(mesh.X, [&](const Vec3& X) { return dot(X - plane.point, plane.normal) < 0.0; }))
     throw InputError("all of \"" + solid.name + "\" lies behind the plane", "",
@@ -294,7 +295,7 @@ void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& s
     });
   if (solid.massDamping > 0.0) model.add(fem::massDamping(solid.massDamping));
   for (std::size_t k = 0; k < solid.planes.size(); ++k)
-    atPlace(solid.planes[k].where, [&] { add(model, mesh, solid, k, scene, stepOf(*built.run)); });
+    atPlace(solid.planes[k].where, [&] { add(model, mesh, solid, k, scene, built); });
 }
 
 }  // namespace dovetail::scene

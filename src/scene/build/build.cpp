@@ -214,6 +214,7 @@ Built build(const Scene& scene) {
   addBondsAndDrives(built, scene, groups);
   addWalls(built, scene);
   addStreams(grains, scene);
+  addCells(built, scene);
   addSolids(built, scene);
   addCouplings(built, scene);
   requireTogether(built, scene);
@@ -294,6 +295,7 @@ void start(Built& built, const Scene& scene) {
   requireSlowDamping(built, scene);
   requireSymmetry(built, scene);
   for (const std::string& note : notesOnSetNames(built, scene)) built.notes.push_back(note);
+  requireHeldCells(built, scene);
   foreseeSolvers(built);
 }
 

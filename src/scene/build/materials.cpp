@@ -1,4 +1,5 @@
 // Materials of solids of a scene.
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/laws/viscosity.hpp"
@@ -36,19 +37,40 @@ auto make(const AxialSprings& law, double density) {
 auto make(const DeformedMetric& law, double density) {
   return fem::pointMaterial(fem::DeformedMetricHooke{law.youngsModulus, law.poissonRatio, density});
 }
+std::shared_ptr<const fem::PointMaterial> make(const GrainCells&, double) { return nullptr; }
 
 }  // namespace
 
 std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material) {
-  auto made = std::visit([&](const auto& law) { return make(law, material.density); }, material.law);
+  std::shared_ptr<const fem::PointMaterial> made = std::visit(
+      [&](const auto& law) -> std::shared_ptr<const fem::PointMaterial> { return make(law, material.density); },
+      material.law);
   if (material.dampingTime == 0.0) return made;
-  const auto [modulus, poisson] = std::visit(
-      [](const auto& law) {
-        if constexpr (requires { law.poissonRatio; }) return std::pair{law.youngsModulus, law.poissonRatio};
-        return std::pair{law.youngsModulus, 0.0};
+  return fem::pointMaterial(
+      fem::kelvinVoigt(std::move(made), material.dampingTime, *youngsModulusOf(material), poissonRatioOf(material)));
+}
+
+std::optional<double> youngsModulusOf(const SolidMaterial& material) {
+  return std::visit(
+      [](const auto& law) -> std::optional<double> {
+        if constexpr (requires { law.youngsModulus; }) return law.youngsModulus;
+        return {};
       },
       material.law);
-  return fem::pointMaterial(fem::kelvinVoigt(std::move(made), material.dampingTime, modulus, poisson));
+}
+
+double poissonRatioOf(const SolidMaterial& material) {
+  return std::visit(
+      [](const auto& law) {
+        if constexpr (requires { law.poissonRatio; }) return law.poissonRatio;
+        return 0.0;
+      },
+      material.law);
+}
+
+double confinedModulusOf(const SolidMaterial& material, const Built& built) {
+  if (const auto* const cells = std::get_if<GrainCells>(&material.law)) return confinedModulus(*cells, built);
+  return fem::moduliAtRest(*makeMaterial(material)).confined;
 }
 
 std::vector<const SolidMaterial*> materialsOf(const Solid& solid) {

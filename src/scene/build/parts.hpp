@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -14,8 +15,10 @@
 #include "dovetail/scene/build.hpp"
 
 namespace dovetail::fem {
+enum class Formulation;
+class PointField;
 class PointMaterial;
-}
+}  // namespace dovetail::fem
 
 namespace dovetail::scene {
 
@@ -90,7 +93,26 @@ void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& s
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
 
+/// Null for cells of grains, which are a field (fieldOf).
 std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material);
+/// Pa; none of cells of grains.
+std::optional<double> youngsModulusOf(const SolidMaterial& material);
+/// 0 of laws without.
+double poissonRatioOf(const SolidMaterial& material);
+/// Pa, at rest; of cells of grains an upper bound.
+double confinedModulusOf(const SolidMaterial& material, const Built& built);
+inline bool hasCells(const SolidMaterial& material) { return std::holds_alternative<GrainCells>(material.law); }
+/// Makes the cells of the scene. @throws InputError for two of one name, files that are none, and cells that do not
+/// come to the pressure
+void addCells(Built& built, const Scene& scene);
+std::vector<rve::Rve> makeCells(const Cells& cells);
+/// A field of its own for each term. @param loadSteps  whether they rest at every state, in place of following a motion
+std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, bool loadSteps);
+/// @throws InputError for discs out of plane strain, or in elements that do not keep it
+void requireDimension(const GrainCells& law, int dimension, fem::Formulation formulation, const Built& built);
+double confinedModulus(const GrainCells& law, const Built& built);
+/// Of a started run. @throws InputError if neither supports nor loads hold the stress that cells start with
+void requireHeldCells(const Built& built, const Scene& scene);
 /// The first is that of all elements without a region, the others those of the regions.
 std::vector<const SolidMaterial*> materialsOf(const Solid& solid);
 /// Whether it remembers plastic strains.

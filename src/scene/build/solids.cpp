@@ -52,6 +52,10 @@ fem::Formulation formulationOf(const std::string& word) {
   return word == "reduced" ? fem::Formulation::reduced : fem::Formulation::standard;
 }
 
+/// Answers of cells are known to a millionth, and their tangent is that before they slip.
+const fem::NewtonOptions newtonOfCells{
+    .relativeTolerance = 1e-4, .lineSearch = false, .reuseContraction = 0.5, .mixing = 5};
+
 const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
   const Overlap* found = nullptr;
   for (const Coupling& coupling : scene.couplings) {
@@ -64,7 +68,23 @@ const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
   return found;
 }
 
-void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
+/// Whether its points rest at every state, in place of following a motion.
+bool takesLoadStepsAlone(const Scene& scene) {
+  return std::ranges::all_of(scene.stages,
+                             [](const Stage& stage) { return std::holds_alternative<Statics>(stage.kind); });
+}
+
+std::shared_ptr<fem::Solid> makeElements(const fem::SolidMesh& mesh, const SolidMaterial& material,
+                                         const fem::SolidOptions& options, const Built& built, bool loadSteps) {
+  if (const auto* const cells = std::get_if<GrainCells>(&material.law)) {
+    requireDimension(*cells, fem::dimensionOf(mesh), options.formulation, built);
+    return fem::makeSolid(mesh, fieldOf(*cells, built, loadSteps), options);
+  }
+  return fem::makeSolid(mesh, makeMaterial(material), options);
+}
+
+void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap,
+                 const Built& built, bool loadSteps) {
   fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
   if (overlap) options.fraction = arlequin::solidWeights(overlapWeights(*overlap, mesh));
   const std::vector<std::size_t> material = materialByElement(solid, mesh);
@@ -83,7 +103,7 @@ void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, co
       if (mesh.groups.size() > 1) name = m > 0 ? name + " " + fem::name(group.shape) : fem::name(group.shape);
       options.name = name;
       if (elements.size() < mesh.elementCount()) options.elementSet = options.name = setOf(mesh, name, elements);
-      model.add(fem::makeSolid(mesh, makeMaterial(*materials[m]), options));
+      model.add(makeElements(mesh, *materials[m], options, built, loadSteps));
     }
     first = end;
   }
@@ -128,11 +148,15 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
     built.notes.push_back("WARNING: \"" + solid.name +
                           "\" has no coupling, so that grains pass through it: give it one, or leave it out.");
   const Overlap* const overlap = overlapWith(solid, scene);
+  const bool anyCells = std::ranges::any_of(materialsOf(solid), [](const auto* one) { return hasCells(*one); });
+  if (overlap && anyCells)
+    throw InputError("the cells of \"" + solid.name + "\" start under pressure, and an overlap bears none", "",
+                     "let grains act on its surface, or give the solid another law");
   built.meshes.push_back(meshOf(solid, built.notes));
   addSets(built.meshes.back(), solid);
   fem::SolidMesh& mesh = built.meshes.back();
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
-  addElements(*model, mesh, solid, overlap);
+  addElements(*model, mesh, solid, overlap, built, takesLoadStepsAlone(scene));
   if (solid.gravity && changesGravity(scene))
     model->add(fem::gravity([now = built.changing.gravity](double) { return *now; }));
   else if (solid.gravity && norm(scene.gravity) > 0.0)
@@ -148,6 +172,16 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   const double fraction = solid.massFraction.value_or(solid.implicitSteps ? 1.0 : 0.0);
   coupling::SolidOptions options{.name = solid.name};
   options.implicitOptions.linear.method = static_cast<linalg::LinearMethod>(solid.linearSolver);
+  if (anyCells) {
+    if (hasStatics(scene) && !takesLoadStepsAlone(scene))
+      throw InputError("cells of grains rest in load steps, and follow the solid in other stages", "",
+                       "take load steps alone, or none: a run with slow loads is a test too");
+    if (solid.implicitSteps)
+      throw InputError("cells of grains answer too coarsely for implicit steps", "stepping",
+                       "leave it out, or take load steps");
+    options.newton = newtonOfCells;
+    options.motionIterations = 20000;
+  }
   options.stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps;
   options.massFraction = fraction;
   const coupling::SolidSide& side = built.run->addSolid(std::move(model), options);

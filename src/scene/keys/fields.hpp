@@ -6,7 +6,7 @@
 
 namespace dovetail::scene {
 
-// keys_grains.cpp, keys_solids.cpp, keys.cpp
+// keys_*.cpp, keys.cpp
 void describe(Fields& f, Rolling& v);
 void describe(Fields& f, LinearContact& v);
 void describe(Fields& f, HertzContact& v);
@@ -52,6 +52,14 @@ void describe(Fields& f, Insertion& v);
 void describe(Fields& f, Outlet& v);
 void describe(Fields& f, BondGroup& v);
 void describe(Fields& f, Drive& v);
+void describe(Fields& f, CellLinearContact& v);
+void describe(Fields& f, CellHertzContact& v);
+void describe(Fields& f, CellContact& v);
+void describe(Fields& f, CellPressing& v);
+void describe(Fields& f, DiscCells& v);
+void describe(Fields& f, SphereCells& v);
+void describe(Fields& f, CellFile& v);
+void describe(Fields& f, Cells& v);
 void describe(Fields& f, BoxMesh& v);
 void describe(Fields& f, MeshFile& v);
 void describe(Fields& f, TetrahedraMesh& v);
@@ -62,6 +70,7 @@ void describe(Fields& f, J2Plastic& v);
 void describe(Fields& f, DruckerPrager& v);
 void describe(Fields& f, AxialSprings& v);
 void describe(Fields& f, DeformedMetric& v);
+void describe(Fields& f, GrainCells& v);
 void describe(Fields& f, SolidMaterial& v);
 void describe(Fields& f, MaterialRegion& v);
 void describe(Fields& f, PlaceInBox& v);
@@ -103,6 +112,7 @@ void describe(Fields& f, SolidProbe& v);
 void describe(Fields& f, DriveProbe& v);
 void describe(Fields& f, SupportProbe& v);
 void describe(Fields& f, RegionProbe& v);
+void describe(Fields& f, CellsProbe& v);
 void describe(Fields& f, Probe& v);
 void describe(Fields& f, Output& v);
 void describe(Fields& f, Scene& v);

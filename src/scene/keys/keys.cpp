@@ -124,6 +124,7 @@ void describe(Fields& f, Scene& v) {
   f.list({"outlets", "regions in which grains are removed"}, v.outlets);
   f.list({"bonds", "elastic beams between grains, which can break"}, v.bonds);
   f.list({"drives", "groups of grains with a prescribed motion"}, v.drives);
+  f.list({"cells", "cells of grains, which answer for the deformation of solids"}, v.cells);
   f.list({"solids", "bodies of finite elements"}, v.solids);
   f.list({"couplings", "between grains and solids"}, v.couplings);
   f.object({"steps", "time steps"}, v.steps);

@@ -6,10 +6,14 @@ namespace dovetail::scene {
 // ---- solids
 
 void describe(Fields& f, BoxMesh& v) {
-  static constexpr const char* shapes[] = {"hex8", "hex20", "hex27", "tet4", "tet10"};
-  f.word({"cell", "shape of the cells; tetrahedra: six per brick"}, v.shape, shapes);
+  static constexpr const char* shapes[] = {"hex8", "hex20", "hex27", "tet4", "tet10", "quad4", "quad8"};
+  f.word({"cell", "shape of the cells; tetrahedra: six per brick; quad4, quad8: plane strain, one cell along z"},
+         v.shape, shapes);
   f.cells({"cells", "numbers of bricks along x, y and z"}, v.cells);
-  f.box({"box", "extent; the mesh has the sets x-, x+, y-, y+, z-, z+ and skin"}, v.box);
+  f.box({"box",
+         "extent; the mesh has the sets x-, x+, y-, y+, z-, z+ and skin, in plane strain those along x and y and skin; "
+         "the extent along z is then its thickness"},
+        v.box);
 }
 void describe(Fields& f, MeshFile& v) {
   f.file({"file", "Gmsh .msh, Abaqus .inp, or .vtu where the build has VTK, with its sets"}, v.file);
@@ -62,14 +66,25 @@ void describe(Fields& f, DeformedMetric& v) {
   young(f, v.youngsModulus);
   poisson(f, v.poissonRatio);
 }
+void describe(Fields& f, GrainCells& v) {
+  static constexpr const char* tangents[] = {"elastic", "frictional", "Voigt", "probed", "numerical", "averaged"};
+  f.text({"cells", "name of the cells"}, v.cells, true);
+  f.choice({"tangent", "of load steps: derivative of the stress of the cells"}, v.tangent, tangents);
+  f.number({"inertial_number", "of the paths of the cells in load steps"}, v.inertialNumber, between(0.0, 1e-2, true));
+  f.number({"strain_per_step", "largest, of the steps of the grains while the solid moves"}, v.strainPerStep,
+           between(0.0, 1e-3, true));
+  f.number({"damping", "fraction of the forces on grains against their motion while the solid moves"}, v.damping,
+           between(0.0, 1.0, false, true));
+}
 void describe(Fields& f, SolidMaterial& v) {
-  static constexpr const char* laws[] = {"St-Venant-Kirchhoff", "neo-Hookean",   "J2",
-                                         "Drucker-Prager",      "axial-springs", "deformed-metric"};
+  static constexpr const char* laws[] = {"St-Venant-Kirchhoff", "neo-Hookean",     "J2",   "Drucker-Prager",
+                                         "axial-springs",       "deformed-metric", "cells"};
   f.oneOf({"law",
            "elastic, but J2 and Drucker-Prager elastic-plastic; axial-springs: as a cubic lattice of grains; "
            "deformed-metric: Hooke's law by the metric of the deformed body, without a potential (Cheng et al. 2023, "
-           "Eq. 34)"},
+           "Eq. 34); cells: a cell of grains at every point, which has the density too"},
           v.law, laws);
+  if (std::holds_alternative<GrainCells>(v.law)) return;
   density(f, v.density);
   f.number(
       {"damping_time", "viscosities over elastic moduli: the damping ratio of a mode of frequency f is pi*f times it"},

@@ -29,20 +29,25 @@ void describe(Fields& f, SupportProbe& v) {
   solid(f, v.solid);
   f.text({"on", "node set with supports, whose forces are summed; if it has ties only, theirs"}, v.on, true);
 }
+void describe(Fields& f, CellsProbe& v) {
+  solid(f, v.solid);
+  f.vector({"at", "position; the cell nearest to it at the start; the mean of all if not given"}, v.at, unit::length);
+}
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {
-  static constexpr const char* kinds[] = {"grain", "node", "wall", "solid", "drive", "support", "region"};
+  static constexpr const char* kinds[] = {"grain", "node", "wall", "solid", "drive", "support", "region", "cells"};
   f.where(v.where);
   f.text({"name", "of its columns: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);
   f.oneOf({"of",
            "position and velocity of a grain, displacement of a node, force and moment of the grains on a wall and its "
            "displacement, force and moment of the grains on a solid, force and moment of a drive on its grains or of a "
-           "support on its solid, or number and mean velocity of the grains in a region"},
+           "support on its solid, number and mean velocity of the grains in a region, or pressure, stress ratio, void "
+           "ratio, contacts per grain and fraction of sliding contacts of the cells of a solid"},
           v.of, kinds);
 }
 void describe(Fields& f, Output& v) {
-  static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts",
-                                             "bonds",  "solids", "stress", "history", "walls"};
+  static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts", "bonds",
+                                             "solids", "stress", "strain", "cells",   "history",  "walls"};
   f.where(v.where);
   f.number({"series", "interval of rows of energies and momenta"}, v.series, positive(unit::time));
   f.list({"probes", "further columns of the series"}, v.probes);

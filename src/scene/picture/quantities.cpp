@@ -20,6 +20,11 @@ const std::array hues{
     Hue{"traction", "traction", "Pa"},
     Hue{"displacement", "displacement", "m"},
     Hue{"plastic_strain", "plastic strain", ""},
+    Hue{"shear_strain", "shear strain", ""},
+    Hue{"volume_strain", "volume strain", "", true},
+    Hue{"void_ratio", "void ratio", ""},
+    Hue{"coordination", "contacts per grain", ""},
+    Hue{"sliding", "fraction of sliding contacts", ""},
     Hue{"normal_force", "normal force", "N"},
     Hue{"utilised", "stress over strength", ""},
 };
@@ -60,7 +65,9 @@ std::vector<std::string> fieldsOf(const io::FrameContent& frame) {
   std::vector<std::string> names;
   for (const io::FrameArray& array : frame.arrays) {
     const std::string name = array.name == "velocity" ? "speed" : array.name;
-    if (name != "stress" && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (name != "stress" && name != "strain" && name != "fabric" &&
+        std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
   }
   return names;
 }

@@ -48,8 +48,12 @@ geometry::Box boxOf(const picture::Drawing& drawing) {
   return box;
 }
 
-picture::Camera viewOf(const geometry::Box& box, const Vec3& up, std::optional<double> azimuth,
+picture::Camera viewOf(const geometry::Box& box, const Vec3& given, std::optional<double> azimuth,
                        std::optional<double> elevation) {
+  // Plane strain is looked at across its plane.
+  const bool isPlane = box.upper.z - box.lower.z <= 1e-6 * norm(box.upper - box.lower);
+  const Vec3 up = isPlane && std::abs(normalized(given).z) > 0.9 ? Vec3{0, 1, 0} : given;
+  if (isPlane && !azimuth && !elevation) azimuth = elevation = 0.0;
   const Vec3 z = normalized(up), size = box.upper - box.lower;
   // Horizontal directions: the one that azimuths count from, and the one to the right of it.
   Vec3 front = Vec3{0, -1, 0} + dot(Vec3{0, 1, 0}, z) * z;

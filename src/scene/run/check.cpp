@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "build/parts.hpp"
+#include "cell_fields.hpp"
 #include "dovetail/core/memory.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/scene/execute.hpp"
@@ -36,6 +37,7 @@ void reportParts(Built& built, const Scene& scene, std::ostream& log) {
   for (std::size_t s = 0; s < run.solids(); ++s)
     log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
         << built.meshes[s].elementCount() << " elements\n";
+  for (const std::string& line : linesOnCells(built)) log << line << '\n';
   log << "step " << run.dt() << " s\n";
   for (const StepLimit& limit : limits(built, scene))
     if (std::isfinite(limit.dt))

@@ -6,12 +6,14 @@
 #include <utility>
 
 #include "build/parts.hpp"
+#include "cell_fields.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
 #include "dovetail/dem/walls/facet_tractions.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/viscosity.hpp"
+#include "point_means.hpp"
 
 namespace dovetail::scene {
 
@@ -20,35 +22,6 @@ namespace {
 double determinant(const double* F) {
   return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
 }
-
-/// Calls act(solid, sample) for all elements of a model.
-template <class Act>
-void forEachSolid(const fem::Model& model, Act&& act) {
-  for (const auto& term : model.terms)
-    if (auto* const solid = dynamic_cast<fem::Solid*>(term.get()))
-      act(*solid, solid->sample(model.nodes, {.t = model.t}));
-}
-
-/// Sums of values times weights, by element, and the means.
-class Means {
-public:
-  Means(std::size_t elements, std::size_t components)
-      : components_(components), sum_(elements * components), weight_(elements) {}
-  void add(int element, double weight, const double* values) {
-    const auto e = static_cast<std::size_t>(element);
-    weight_[e] += weight;
-    for (std::size_t c = 0; c < components_; ++c) sum_[e * components_ + c] += weight * values[c];
-  }
-  std::vector<double> take() {
-    for (std::size_t k = 0; k < sum_.size(); ++k)
-      if (const double weight = weight_[k / components_]; weight > 0.0) sum_[k] /= weight;
-    return std::move(sum_);
-  }
-
-private:
-  std::size_t components_;
-  std::vector<double> sum_, weight_;
-};
 
 void addLine(ForceLines& lines, const Vec3& from, const Vec3& to, const Vec3& normal, const Vec3& force) {
   const int next = static_cast<int>(lines.ends.size());
@@ -150,6 +123,10 @@ std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements
     fields.push_back({"von_mises", std::move(stress.vonMises)});
     fields.push_back({"pressure", std::move(stress.pressure)});
   }
+  if (has("strain"))
+    for (MeshField& field : elementStrains(model, elements)) fields.push_back(std::move(field));
+  if (has("cells"))
+    for (MeshField& field : elementCells(model, elements)) fields.push_back(std::move(field));
   if (has("history"))
     for (MeshField& field : cellHistory(model, elements, solid)) fields.push_back(std::move(field));
   if (has("weights"))

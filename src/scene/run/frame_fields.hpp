@@ -36,8 +36,8 @@ std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements
 /// Fraction of the solid per node, 1 − w in an overlap, interpolated in the elements; empty if all is the solid's.
 std::vector<double> fractionOf(const fem::Model& model);
 
-/// What frames of a solid show, by the words of `output.contents`: displacement (m), velocity (m/s), stress, history,
-/// weights.
+/// What frames of a solid show, by the words of `output.contents`: displacement (m), velocity (m/s), stress, strain,
+/// cells, history, weights.
 std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const Solid& solid,
                                    const std::vector<std::string>& contents);
 

@@ -57,8 +57,12 @@ void requireFrames(const Output& output) {
   const auto has = [&](const char* word) {
     return std::find(output.contents.begin(), output.contents.end(), word) != output.contents.end();
   };
-  for (const auto& [word, bearer] :
-       {std::pair{"spin", "grains"}, {"forces", "grains"}, {"stress", "solids"}, {"history", "solids"}})
+  for (const auto& [word, bearer] : {std::pair{"spin", "grains"},
+                                     {"forces", "grains"},
+                                     {"stress", "solids"},
+                                     {"strain", "solids"},
+                                     {"cells", "solids"},
+                                     {"history", "solids"}})
     if (has(word) && !has(bearer))
       throw InputError(std::string("contents has \"") + word + "\", but no \"" + bearer + "\"", output.where,
                        std::string("add \"") + bearer + "\", or leave it out");

@@ -141,12 +141,12 @@ void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
   const auto flows = [](const Solid& one) {
     return std::ranges::any_of(materialsOf(one), [](const SolidMaterial* material) { return yields(*material); });
   };
-  for (const Part& part :
-       {Part{"weights", "overlap", std::ranges::any_of(scene.couplings, isOverlap)},
-        Part{"history", "solid that yields", std::ranges::any_of(scene.solids, flows)},
-        Part{"grains", "grains", anyGrains}, Part{"contacts", "grains", anyGrains},
-        Part{"bonds", "bonds", !scene.bonds.empty()}, Part{"solids", "solids", !built.meshes.empty()},
-        Part{"walls", "wall that is a mesh", !grains.terms.all<dem::MeshWallTerm>().empty()}})
+  for (const Part& part : {Part{"weights", "overlap", std::ranges::any_of(scene.couplings, isOverlap)},
+                           Part{"history", "solid that yields", std::ranges::any_of(scene.solids, flows)},
+                           Part{"cells", "solid of cells", !scene.cells.empty()}, Part{"grains", "grains", anyGrains},
+                           Part{"contacts", "grains", anyGrains}, Part{"bonds", "bonds", !scene.bonds.empty()},
+                           Part{"solids", "solids", !built.meshes.empty()},
+                           Part{"walls", "wall that is a mesh", !grains.terms.all<dem::MeshWallTerm>().empty()}})
     if (!part.isThere && std::ranges::find(out.contents, part.word) != out.contents.end())
       lines.push_back("output.contents has " + quoted(part.word) + ", and the scene has no " + part.missing +
                       ": leave it out.");

@@ -7,6 +7,7 @@
 #include "build/changes.hpp"
 #include "build/parts.hpp"
 #include "build/wall_motion.hpp"
+#include "cell_fields.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/io/names.hpp"
@@ -211,6 +212,22 @@ Probes::Values Probes::find(const Built&, const Scene&, const std::string& name,
   nameVector(name + "_v", "m_per_s");
   return [box = kind.box](const Built& now, std::vector<double>& row) {
     appendRegion(now.run->grains.particles, box, row);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const CellsProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  int dimension = 3;
+  meanOfCells(*built.run->solid(solid).model, nullptr, dimension);
+  for (const char* const what : {"pressure_Pa", "stress_ratio", "void_ratio", "coordination", "sliding"})
+    names_.push_back(name + "_" + what);
+  return [solid, kind](const Built& now, std::vector<double>& row) {
+    int dimensions = 3;
+    const CellMeasures cells =
+        meanOfCells(*std::as_const(*now.run).solid(solid).model, kind.at ? &*kind.at : nullptr, dimensions);
+    row.insert(row.end(), {cells.pressure(dimensions), cells.stressRatio(dimensions), cells.voidRatio,
+                           cells.coordination, cells.sliding});
   };
 }
 

@@ -22,13 +22,7 @@ double bulkModulusOf(const LinearContact& contact, double diameter, double solid
   return solidFraction * 6.0 * contact.stiffness / (3.0 * std::numbers::pi * diameter);
 }
 double bulkModulusOf(const SolidMaterial& material) {
-  return std::visit(
-      [](const auto& law) {
-        double poisson = 0.0;
-        if constexpr (requires { law.poissonRatio; }) poisson = law.poissonRatio;
-        return law.youngsModulus / (3.0 * (1.0 - 2.0 * poisson));
-      },
-      material.law);
+  return *youngsModulusOf(material) / (3.0 * (1.0 - 2.0 * poissonRatioOf(material)));
 }
 
 /// What lies between the borders of an overlap.
@@ -111,8 +105,7 @@ void lookBeyondBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const 
 
 void lookAtPenalty(const Overlap& overlap, const SolidMaterial& material, double elementSize, const std::string& name,
                    Lines& lines) {
-  const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, material.law);
-  const double advised = arlequin::automaticPenalty(modulus, elementSize);
+  const double advised = arlequin::automaticPenalty(*youngsModulusOf(material), elementSize);
   if (overlap.penalty.word.empty() && overlap.penalty.number < 1e-4 * advised)
     lines.push_back("The penalty of " + name + " is " + rounded(overlap.penalty.number) +
                     " Pa/m2, too low to hold the gap: write \"auto\", or about " + rounded(advised) + " Pa/m2.");

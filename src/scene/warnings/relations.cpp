@@ -20,12 +20,6 @@ namespace {
 
 // ---- waves
 
-template <class Law>
-double poissonOf(const Law& law) {
-  if constexpr (requires { law.poissonRatio; }) return law.poissonRatio;
-  return 0.0;
-}
-
 void lookAtWaves(const std::string& whose, double modulus, double density, Lines& lines) {
   constexpr double fastest = 2e4, rock = 2500.0;        // diamond, m/s; kg/m3
   const double slowest = density > rock ? 100.0 : 1.0;  // gels and foams are light
@@ -44,7 +38,7 @@ void lookAtLocking(const Built& built, const Solid& solid, std::size_t number, L
   double nu = 0.0;
   bool flows = false;
   for (const SolidMaterial* const material : materialsOf(solid)) {
-    nu = std::max(nu, std::visit([](const auto& law) { return poissonOf(law); }, material->law));
+    nu = std::max(nu, poissonRatioOf(*material));
     flows = flows || std::holds_alternative<J2Plastic>(material->law);
   }
   if (nu < incompressible && !flows) return;
@@ -294,15 +288,18 @@ void lookAtRelations(const Built& built, const Scene& scene, Lines& lines) {
     double largest = 0.0;
     const std::vector<const SolidMaterial*> materials = materialsOf(solid);
     for (std::size_t m = 0; m < materials.size(); ++m) {
-      const double modulus = std::visit([](const auto& law) { return law.youngsModulus; }, materials[m]->law);
+      if (hasCells(*materials[m])) continue;
+      const double modulus = *youngsModulusOf(*materials[m]);
       const std::string region = m > 0 ? " (" + solid.regions[m - 1].elements + ")" : "";
       lookAtWaves(quoted(solid.name) + region, modulus, materials[m]->density, lines);
       lookAtStrength(of + (m > 0 ? ".regions." + std::to_string(m - 1) : "") + ".material", solid, *materials[m],
                      lines);
       largest = std::max(largest, modulus);
     }
-    lookAtPressures(of, solid, largest, scene, lines);
-    lookAtPlanes(of, solid, *built.run->solid(s).model, largest, lines);
+    if (largest > 0.0) {
+      lookAtPressures(of, solid, largest, scene, lines);
+      lookAtPlanes(of, solid, *built.run->solid(s).model, largest, lines);
+    }
     lookAtAspects(of, scene.solids[s], built.meshes[s], lines);
     lookAtLocking(built, scene.solids[s], s, lines);
   }

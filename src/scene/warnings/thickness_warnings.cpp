@@ -98,21 +98,12 @@ double stiffnessOf(fem::ElementShape shape, const std::string& formulation, cons
   return formulation == "reduced" ? 1.0 - rest : 1.0;
 }
 
-double poissonOf(const SolidMaterial& material) {
-  return std::visit(
-      [](const auto& law) {
-        if constexpr (requires { law.poissonRatio; }) return law.poissonRatio;
-        return 0.0;
-      },
-      material.law);
-}
-
 /// Of what lies across a part. @param material  number of that of each element
 double largestPoissonOf(const Solid& solid, const std::vector<std::size_t>& material,
                         const std::vector<std::size_t>& elements) {
   const std::vector<const SolidMaterial*> materials = materialsOf(solid);
   double largest = -1.0;
-  for (const std::size_t e : elements) largest = std::max(largest, poissonOf(*materials[material[e]]));
+  for (const std::size_t e : elements) largest = std::max(largest, poissonRatioOf(*materials[material[e]]));
   return largest;
 }
 

@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/material_probe.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/solve/statics.hpp"
@@ -170,8 +171,8 @@ TEST(ContactPlane, TheProposedPenaltyGivesWayByATenthOfALayer) {
   Model model = makeModel(mesh);
   model.add(makeSolid(mesh, material));
   const Plane plane{{0, 0, 0}, {0, 0, 1}, [](double t) { return Vec3{0, 0, 1e-6 * t}; }};
-  const ContactPlane& contact =
-      model.add(makeContactPlane(mesh, faces, plane, {.penalty = contactPenalty(mesh, faces, *material)}));
+  const ContactPlane& contact = model.add(
+      makeContactPlane(mesh, faces, plane, {.penalty = contactPenalty(mesh, faces, moduliAtRest(*material).confined)}));
   model.constraints.hold(nodeSet(mesh, "z+"), componentZ);
   model.constraints.hold(nodeSet(mesh, "x-"), componentX);
   model.constraints.hold(nodeSet(mesh, "y-"), componentY);

@@ -80,6 +80,7 @@ public:
   double dampingTime() const override;
   bool remembers() const override { return true; }
   FieldPoints* field() override { return this; }
+  const PointField& asked() const { return *field_; }
 
   bool isOpen() const override { return !places_.empty(); }
   void open(std::size_t pointsPerElement, std::span<const PointPlace> places) override;

@@ -27,6 +27,7 @@
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/fem/model/checkpoint.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
+#include "dovetail/fem/solve/statics.hpp"
 
 namespace dovetail::coupling {
 
@@ -36,6 +37,9 @@ struct SolidOptions {
   double massFraction = 0.0;  ///< of the consistent mass; 0 lumped
   /// Of implicit steps; its massFraction is the one above.
   fem::ImplicitOptions implicitOptions{.scheme = fem::newmark(), .relativeTolerance = 1e-10};
+  /// Of load steps, whose linear systems are solved as those of implicit steps.
+  fem::NewtonOptions newton{};
+  int motionIterations = 0;  ///< of load steps, as in fem::StaticOptions
 };
 
 /// Instants at which forces act. All but `none` serve comparison with staggered schemes: a load that lags adds energy

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const 
 
 /// The same for explicit dynamics. The tangent, from which stable steps follow, is voigtTangent: an upper bound.
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings);
+
+/// The cell of a point of such a field, in the order of open(), as it was committed last; none of other fields.
+std::optional<rve::Rve> committedCell(const fem::PointField& field, std::size_t point);
 
 /// From the present deformation to F and to rest there, as points do in statics.
 /// @throws InputError as rve::followPath, or if a setting is not valid; NumericalError if the cell does not come to

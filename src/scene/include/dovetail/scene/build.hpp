@@ -11,6 +11,7 @@
 #include "dovetail/dem/walls/rigid_wall.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
+#include "dovetail/rve/rve.hpp"
 #include "dovetail/scene/scene.hpp"
 
 namespace dovetail::scene {
@@ -47,10 +48,11 @@ struct SupportNow {
 /// A run, and data on its parts.
 struct Built {
   std::unique_ptr<coupling::CoupledRun> run;
-  std::vector<fem::SolidMesh> meshes;             ///< of the solids, in their order
-  std::vector<WallParts> walls;                   ///< of the scene's walls, in their order
-  std::vector<std::vector<SupportNow>> supports;  ///< of the solids, in their order
-  std::vector<linalg::LinearForecast> forecasts;  ///< of the solids of a started run
+  std::vector<fem::SolidMesh> meshes;                  ///< of the solids, in their order
+  std::map<std::string, std::vector<rve::Rve>> cells;  ///< of grains, by their names, as prepared
+  std::vector<WallParts> walls;                        ///< of the scene's walls, in their order
+  std::vector<std::vector<SupportNow>> supports;       ///< of the solids, in their order
+  std::vector<linalg::LinearForecast> forecasts;       ///< of the solids of a started run
   ChangingParts changing;
   std::vector<std::string> notes;  ///< on decisions that the file leaves open, one sentence each
 };

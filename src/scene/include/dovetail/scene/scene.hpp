@@ -111,9 +111,14 @@ struct SupportProbe {
 struct RegionProbe {
   geometry::Box box = requiredBox;  ///< m
 };
+/// Of the cells of grains of a solid, the mean or one.
+struct CellsProbe {
+  std::string solid;
+  std::optional<Vec3> at;  ///< m
+};
 struct Probe {
   std::string name;
-  std::variant<GrainProbe, NodeProbe, WallProbe, SolidProbe, DriveProbe, SupportProbe, RegionProbe> of;
+  std::variant<GrainProbe, NodeProbe, WallProbe, SolidProbe, DriveProbe, SupportProbe, RegionProbe, CellsProbe> of;
   std::string where;
 };
 struct Output {
@@ -146,6 +151,7 @@ struct Scene {
   std::vector<Outlet> outlets;
   std::vector<BondGroup> bonds;
   std::vector<Drive> drives;
+  std::vector<Cells> cells;
   std::vector<Solid> solids;
   std::vector<Coupling> couplings;
   Steps steps;

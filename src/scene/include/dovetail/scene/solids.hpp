@@ -1,7 +1,7 @@
 // Solids of a scene and their couplings to grains.
 #pragma once
 
-#include "dovetail/scene/grains.hpp"
+#include "dovetail/scene/cells.hpp"
 
 namespace dovetail::scene {
 
@@ -48,9 +48,16 @@ struct AxialSprings {
 struct DeformedMetric {
   double youngsModulus = required, poissonRatio = required;
 };
+/// A cell of grains at every quadrature point, see hierarchical::cellField.
+struct GrainCells {
+  std::string cells;                           ///< name
+  int tangent = 0;                             ///< hierarchical::Operator
+  double inertialNumber = 1e-3;                ///< of load steps
+  double strainPerStep = 3e-5, damping = 0.1;  ///< of explicit steps
+};
 struct SolidMaterial {
-  std::variant<StVenantKirchhoff, NeoHookean, J2Plastic, DruckerPrager, AxialSprings, DeformedMetric> law;
-  double density = required;  ///< kg/m³
+  std::variant<StVenantKirchhoff, NeoHookean, J2Plastic, DruckerPrager, AxialSprings, DeformedMetric, GrainCells> law;
+  double density = required;  ///< kg/m³; not read of cells, whose grains have it
   double dampingTime = 0.0;   ///< viscosities over elastic moduli, s
 };
 /// Elements of another material.

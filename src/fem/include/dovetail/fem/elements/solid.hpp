@@ -61,6 +61,8 @@ public:
   virtual std::size_t memory() const = 0;
   /// Null for a field of points.
   virtual const PointMaterial* material() const = 0;
+  /// Null for a material; its points are those of sample(), in the same order.
+  virtual const PointField* field() const = 0;
   /// Reference density, kg/m³.
   virtual double density() const = 0;
   /// Energy in hourglass stiffness alone, J (part of energy()).

@@ -13,6 +13,7 @@
 
 namespace dovetail::fem {
 
+class FieldPoint;
 class PointMaterial;
 
 /// A quadrature point of a solid, before any motion.
@@ -67,6 +68,8 @@ public:
   virtual void load(ByteReader& archive) = 0;
   /// Bytes.
   virtual std::size_t memory() const { return 0; }
+  /// A point in the order of open(), where they are evaluated one by one; else null.
+  virtual const FieldPoint* point(std::size_t) const { return nullptr; }
 };
 
 /// The points of a law, for decorators that ask it for all points at once. A solid with the law itself gives the same

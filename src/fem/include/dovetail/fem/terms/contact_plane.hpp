@@ -50,12 +50,12 @@ public:
   virtual Report report(const Nodes& nodes, const Instant& now) const = 0;
 };
 
-/// A penalty for faces of a material, Pa/m: ten times its confined modulus at rest over the mean size √A of the faces
-/// (of lines: their length).
+/// A penalty for faces of a material, Pa/m: ten times its confined modulus (Pa; moduliAtRest) over the mean size √A of
+/// the faces (of lines: their length).
 /// A pressure then penetrates by a tenth of what it compresses a layer of cubes. Explicit steps shrink to about a third
 /// by it; a tenth of it leaves them.
 /// @throws InputError for no faces, a node that does not exist
-double contactPenalty(const SolidMesh& mesh, std::span<const Face> faces, const PointMaterial& material);
+double contactPenalty(const SolidMesh& mesh, std::span<const Face> faces, double confinedModulus);
 
 /// @throws InputError for no faces, a node that does not exist, a normal without length, options out of range
 std::shared_ptr<ContactPlane> makeContactPlane(const SolidMesh& mesh, std::span<const Face> faces, const Plane& plane,

@@ -1,0 +1,170 @@
+// Cells of grains of a scene.
+#include <algorithm>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/hierarchical/cell_field.hpp"
+#include "dovetail/rve/operators.hpp"
+#include "dovetail/rve/packing.hpp"
+#include "dovetail/rve/rve_archive.hpp"
+#include "keys/advice.hpp"
+#include "parts.hpp"
+#include "sizes.hpp"
+#include "warnings/warnings.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+constexpr double restOfCells = 1e-6;  // forces out of balance over the mean contact force
+constexpr double bytesOfGrain = 1000.0;
+
+rve::Springs springsOf(const CellLinearContact& law, double friction) {
+  if (law.modulus.has_value() == law.stiffness.has_value())
+    throw InputError(law.modulus ? "both a modulus and a stiffness are given" : "neither a modulus nor a stiffness is",
+                     "", "give one of them");
+  return {.modulus = law.modulus.value_or(0.0),
+          .stiffness = law.stiffness.value_or(0.0),
+          .tangential = law.stiffnessRatio,
+          .friction = friction,
+          .rolling = law.rolling,
+          .rollingLimit = law.rollingFriction};
+}
+rve::Springs springsOf(const CellHertzContact& law, double friction) {
+  return rve::hertzMindlin(law.youngsModulus / (2.0 * (1.0 + law.poissonRatio)), law.poissonRatio, friction);
+}
+rve::Springs springsOf(const CellContact& contact) {
+  return atPlace(contact.where, [&] {
+    return std::visit([&](const auto& law) { return springsOf(law, contact.friction); }, contact.law);
+  });
+}
+
+rve::CloudOptions cloudOf(const DiscCells& cells) { return {.shape = rve::Shape::disc, .thickness = cells.thickness}; }
+rve::CloudOptions cloudOf(const SphereCells&) { return {.shape = rve::Shape::sphere}; }
+
+rve::Rve pressed(const PressedCells& cells, rve::CloudOptions cloud, std::size_t number) {
+  cloud.count = static_cast<int>(cells.count);
+  cloud.sizes = sizesOf(cells.radius);
+  cloud.density = cells.density;
+  cloud.seed = static_cast<std::uint64_t>(cells.seed) + number;
+  rve::Rve cell = rve::randomCell(cloud, springsOf(cells.contact));
+  for (const CellPressing& to : cells.prepare)
+    atPlace(to.where, [&] {
+      rve::compress(cell, {.pressure = {to.pressure, to.pressure, to.pressure},
+                           .friction = to.friction.value_or(cells.contact.friction),
+                           .tolerance = cells.tolerance,
+                           .rest = {.tolerance = restOfCells}});
+    });
+  return cell;
+}
+
+template <class Kind>
+std::vector<rve::Rve> make(const Kind& cells) {
+  requireMemory(static_cast<double>(cells.count * cells.number), "grains of cells", bytesOfGrain,
+                "take fewer cells, or fewer grains");
+  std::vector<rve::Rve> made(static_cast<std::size_t>(cells.number));
+  parallelTasks(made.size(), [&](std::size_t k) { made[k] = pressed(cells, cloudOf(cells), k); });
+  return made;
+}
+std::vector<rve::Rve> make(const CellFile& from) {
+  std::vector<rve::Rve> cells = rve::readSamples(from.file);
+  if (cells.empty()) throw InputError("the file has no cells", from.file, "give one that dovetail cell has written");
+  return cells;
+}
+
+const std::vector<rve::Rve>& banked(const Built& built, const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& [known, cells] : built.cells) names.push_back(known);
+  const auto found = built.cells.find(name);
+  if (found == built.cells.end())
+    throw InputError("there are no cells \"" + name + "\"", "",
+                     names.empty() ? "describe them in \"cells\" of the scene" : adviceFor(name, names));
+  return found->second;
+}
+
+}  // namespace
+
+std::vector<rve::Rve> makeCells(const Cells& cells) {
+  return atPlace(cells.where,
+                 [&] { return std::visit([](const auto& grains) { return make(grains); }, cells.grains); });
+}
+
+void addCells(Built& built, const Scene& scene) {
+  for (const Cells& cells : scene.cells) {
+    if (built.cells.contains(cells.name))
+      throw InputError("two cells are named \"" + cells.name + "\"", cells.where, "give them different names");
+    built.cells[cells.name] = makeCells(cells);
+  }
+}
+
+std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, bool loadSteps) {
+  const std::vector<rve::Rve>& cells = banked(built, law.cells);
+  if (loadSteps)
+    return hierarchical::cellField(
+        cells, hierarchical::QuasiStaticCells{
+                   .path = {.inertialNumber = law.inertialNumber, .rest = {.tolerance = restOfCells}},
+                   .unbalanced = restOfCells,
+                   .tangent = static_cast<hierarchical::Operator>(law.tangent)});
+  return hierarchical::cellField(
+      cells, hierarchical::DynamicCells{.strainPerStep = law.strainPerStep, .damping = law.damping});
+}
+
+void requireDimension(const GrainCells& law, int dimension, fem::Formulation formulation, const Built& built) {
+  if (banked(built, law.cells).front().shape == rve::Shape::sphere) return;
+  const std::string of = "the cells \"" + law.cells + "\" are discs, which deform in their plane only";
+  if (dimension != 2) throw InputError(of, "", "take a mesh of quad4 or quad8, or spheres");
+  if (formulation == fem::Formulation::meanDilatation)
+    throw InputError(of, "formulation", "write \"standard\", or \"reduced\" with quad8");
+}
+
+namespace {
+
+/// Of cells at the start, mean, Pa.
+double pressureOf(const Solid& solid, const Built& built) {
+  for (const SolidMaterial* const material : materialsOf(solid))
+    if (const auto* const law = std::get_if<GrainCells>(&material->law))
+      return rve::stress(banked(built, law->cells).front()).pressure;
+  return 0.0;
+}
+
+/// @throws InputError naming the node that the stress of the cells pushes most, if next to nothing holds it
+void requireHeld(const coupling::SolidSide& side, const Solid& solid, double pressure) {
+  constexpr double most = 0.5;
+  const fem::Nodes& nodes = side.nodes();
+  std::vector<Vec3> all(nodes.X.size()), inner(all.size());
+  for (const auto& term : side.model->terms) {
+    term->addForces(nodes, {.t = side.model->t}, all);
+    if (dynamic_cast<const fem::Solid*>(term.get())) term->addForces(nodes, {.t = side.model->t}, inner);
+  }
+  double largest = 0.0, worst = 0.0;
+  std::size_t at = 0;
+  for (const Vec3& f : inner) largest = std::max({largest, std::abs(f.x), std::abs(f.y), std::abs(f.z)});
+  for (std::size_t n = 0; n < all.size(); ++n)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double free = std::abs(all[n][static_cast<int>(c)]);
+      if (side.mass->dofs().role(3 * n + c) == fem::Role::free && free > worst) worst = free, at = n;
+    }
+  if (worst <= most * largest) return;
+  const Vec3& X = nodes.X[at];
+  throw InputError("the cells of \"" + solid.name + "\" start under a pressure of " + rounded(pressure) +
+                       " Pa, which nothing holds at node " + std::to_string(at) + " (" + formatNumber(X.x) + ", " +
+                       formatNumber(X.y) + ", " + formatNumber(X.z) + ")",
+                   solid.where,
+                   "give each of its faces without a support a load {\"type\": \"pressure\", \"pressure\": \"" +
+                       rounded(1e-3 * pressure) + " kPa\"}");
+}
+
+}  // namespace
+
+void requireHeldCells(const Built& built, const Scene& scene) {
+  for (std::size_t s = 0; s < scene.solids.size(); ++s)
+    if (const double pressure = pressureOf(scene.solids[s], built); pressure > 0.0 && !scene.solids[s].state)
+      requireHeld(std::as_const(*built.run).solid(s), scene.solids[s], pressure);
+}
+
+double confinedModulus(const GrainCells& law, const Built& built) {
+  return rve::voigtTangent(banked(built, law.cells).front())(0, 0);
+}
+
+}  // namespace dovetail::scene

@@ -1,0 +1,216 @@
+// Solids whose points have cells of grains.
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "dovetail/core/archive.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/hierarchical/cell_field.hpp"
+#include "dovetail/rve/packing.hpp"
+#include "dovetail/rve/rve_archive.hpp"
+#include "loaded_bars.hpp"
+#include "run/cell_fields.hpp"
+
+namespace dovetail::scene::test {
+namespace {
+
+/// @param keys  further keys of the cells, with a comma behind
+std::string discs(const std::string& keys = "") {
+  return R"("cells": [{"name": "sand", "grains": "discs", "count": 60, "radius": {"smallest": 3e-3, "largest": 7e-3}, )" +
+         keys + R"("density": 2650, "thickness": 0.1, "contact": {"law": "linear", "modulus": 6e8, "friction": 0.5},
+      "prepare": [{"pressure": 1e5, "friction": 0.2}]}],)";
+}
+const std::string sides = R"("loads": [{"on": "x+", "type": "pressure", "pressure": 1e5}])";
+const std::string frame = R"("supports": [{"on": "x-", "components": ["x"]}, {"on": "y-", "components": ["y"]},
+    {"on": "y+", "components": ["y"], "displacement": [0, "-2e-4*t", 0]}])";
+
+/// A block of 0.1 × 0.2 m of these cells.
+std::string block(const std::string& keys, const std::string& mesh = R"("cell": "quad4", "cells": [1, 1, 1])",
+                  const std::string& material = R"({"law": "cells", "cells": "sand"})") {
+  return R"("solids": [{"name": "block", "mesh": "box", "gravity": false, )" + mesh +
+         R"(, "box": [[0, 0, 0], [0.1, 0.2, 0.1]], "material": )" + material + ", " + keys + "}],";
+}
+const std::string runs = R"("steps": {"safety": 0.8}, "stages": [{"do": "run", "time": 0.02}])";
+const std::string loads = R"("steps": {"dt": 1e-4}, "stages": [{"do": "statics", "load_steps": 2, "time": 1}])";
+
+Scene blockScene(const std::string& stages, const std::string& cells = discs(),
+                 const std::string& keys = frame + ", " + sides) {
+  return sceneFromText("{" + cells + block(keys) + stages + "}", "s.json", "/");
+}
+std::string refusalOfStart(const Scene& scene) {
+  try {
+    started(scene);
+    return "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+const fem::Solid& elementsOf(const Built& built) {
+  for (const auto& term : built.run->solid(0).model->terms)
+    if (const auto* const solid = dynamic_cast<const fem::Solid*>(term.get())) return *solid;
+  throw InputError("no elements", "", "");
+}
+
+TEST(SceneCells, AreThoseOfTheLibrary) {
+  const Built built = build(blockScene(loads, discs(R"("number": 2, "seed": 4, )")));
+  ASSERT_EQ(built.cells.at("sand").size(), 2U);
+  const rve::Rve& second = built.cells.at("sand")[1];
+  rve::Rve own = rve::randomCell({.count = 60, .sizes = dem::UniformSizes{3e-3, 7e-3}, .density = 2650, .seed = 5},
+                                 {.modulus = 6e8, .tangential = 0.8, .friction = 0.5});
+  rve::compress(own, {.pressure = {1e5, 1e5, 1e5}, .friction = 0.2, .rest = {.tolerance = 1e-6}});
+  EXPECT_EQ(second.state.x, own.state.x);
+  EXPECT_EQ(second.state.lattice.period, own.state.lattice.period);
+  double mean = 0.0;
+  for (const rve::Rve& cell : built.cells.at("sand")) mean += 0.5 * cell.density * rve::solidFraction(cell);
+  EXPECT_NEAR(elementsOf(built).density(), mean, 1e-9 * mean);
+}
+
+/// The stress at every point is that of its cell, and in the mean balances the pressure on the side.
+TEST(SceneCells, LoadStepsGiveTheAnswersOfTheCells) {
+  Built built = loaded(blockScene(loads));
+  auto& elements = const_cast<fem::Solid&>(elementsOf(built));
+  const fem::Solid::Sample sample = elements.sample(built.run->solid(0).nodes(), {.t = 1.0});
+  double side = 0.0, F22 = 0.0;
+  for (std::size_t p = 0; p < 4; ++p) {
+    const std::optional<rve::Rve> now = hierarchical::committedCell(*elements.field(), p);
+    ASSERT_TRUE(now);
+    const Eigen::Matrix3d P = rve::nominalStress(*now);
+    for (std::size_t k = 0; k < 9; ++k)
+      EXPECT_NEAR(sample.P[9 * p + k], P(static_cast<int>(k / 3), static_cast<int>(k % 3)), 1e-9 * P.norm());
+    side += 0.25 * sample.P[9 * p], F22 += 0.25 * sample.F[9 * p + 4];
+    EXPECT_LT(P(1, 1), -1.1e5);
+  }
+  EXPECT_NEAR(F22, 1.0 - 1e-3, 1e-12);
+  EXPECT_NEAR(side, -1e5 * F22, 1e-3 * 1e5);
+  double exchanged = 0.0;
+  for (const auto& one : built.run->ledger().channels()) exchanged += std::abs(one.joules);
+  EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-2 * exchanged);
+}
+
+TEST(SceneCells, MotionIsBookedAndTheSameOnAnyNumberOfThreads) {
+  const Scene scene = blockScene(runs, discs(), frame + ", " + sides);
+  std::vector<std::string> states;
+  for (const int count : {1, 2}) {
+    setThreads(count);
+    Built built = started(scene);
+    built.run->advance(200);
+    const EnergyLedger& ledger = built.run->ledger();
+    double exchanged = 0.0;
+    for (const auto& one : ledger.channels()) exchanged += std::abs(one.joules);
+    EXPECT_LT(std::abs(ledger.residual()), 1e-3 * exchanged);
+    std::ostringstream text;
+    for (const Vec3& u : built.run->solid(0).nodes().u) text << std::hexfloat << u.x << u.y;
+    states.push_back(text.str());
+  }
+  EXPECT_EQ(states[0], states[1]);
+}
+
+TEST(SceneCells, WhatCannotBeIsRefused) {
+  const auto all = frame + ", " + sides;
+  expectParts(refusalOfStart(blockScene(runs, discs(), R"("supports": [{"on": "y-"}])")),
+              {"start under a pressure of 1e+05 Pa", "nothing holds at node", "\"pressure\": \"100 kPa\""});
+  const auto with = [&](const std::string& material, const std::string& keys, const std::string& mesh) {
+    return refusalOfStart(sceneFromText("{" + discs() + block(keys, mesh, material) + runs + "}", "s.json", "/"));
+  };
+  const std::string plane = R"("cell": "quad4", "cells": [1, 1, 1])", sand = R"({"law": "cells", "cells": "sand"})";
+  expectParts(with(R"({"law": "cells", "cells": "snd"})", all, plane), {"no cells \"snd\"", "sand", "solids.0"});
+  expectParts(with(sand, all, R"("cells": [1, 1, 1])"), {"discs", "in their plane", "quad4 or quad8"});
+  expectParts(with(sand, all + R"(, "formulation": "mean-dilatation")", plane), {"discs", "formulation"});
+  expectParts(with(sand, all + R"(, "stepping": "implicit")", plane), {"too coarsely for implicit steps"});
+  EXPECT_THROW(with(R"({"law": "cells", "cells": "sand", "density": 1000})", all, plane), InputError);
+}
+
+TEST(SceneCells, DescriptionsAreChecked) {
+  const auto refusal = [](const std::string& contact, const std::string& rest) {
+    try {
+      return refusalOf(sceneFromText(R"({"cells": [{"name": "sand", "grains": "discs", "count": 60, "density": 2650,
+          "radius": {"smallest": 3e-3, "largest": 7e-3}, "thickness": 0.1, "contact": )" +
+                                         contact + rest + "]," + block(frame) + runs + "}",
+                                     "s.json", "/"));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+  };
+  const std::string pressed = R"(, "prepare": [{"pressure": 1e5}]})";
+  expectParts(refusal(R"({"law": "linear", "friction": 0.5})", pressed), {"cells.0.contact", "neither a modulus"});
+  expectParts(refusal(R"({"law": "linear", "friction": 0.5, "modulus": 1e8, "stiffness": 1})", pressed),
+              {"cells.0.contact", "both a modulus"});
+  expectParts(refusal(R"({"law": "Hertz", "friction": 0.5, "youngs_modulus": 1e9, "poisson_ratio": 0.2})", pressed),
+              {"cells.0", "sphere"});
+  expectParts(refusal(R"({"law": "linear", "friction": 0.5, "modulus": 1e8})", "}"), {"cells.0", "prepare"});
+}
+
+/// Spheres in bricks, and a file of cells in place of grains.
+TEST(SceneCells, ComeFromFilesToo) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "dovetail_scene_cells";
+  std::filesystem::create_directories(folder);
+  const Built built = build(blockScene(loads));
+  rve::writeSamples(folder / "sand.cells", built.cells.at("sand"));
+  const std::string cells = R"("cells": [{"name": "sand", "grains": "file", "file": "sand.cells"}],)";
+  Built again = build(sceneFromText("{" + cells + block(frame + ", " + sides) + loads + "}", "s.json", folder));
+  EXPECT_EQ(again.cells.at("sand").front().state.x, built.cells.at("sand").front().state.x);
+  std::filesystem::remove_all(folder);
+}
+
+/// One layer of bricks that cannot move along z.
+TEST(PlaneStrain, IsALayerOfBricksInScenes) {
+  const auto tip = [](const std::string& shape, const std::string& sides) {
+    const Built built = loaded(
+        staticScene(R"("solids": [{"name": "beam", "mesh": "box", "cell": ")" + shape +
+                        R"(", "cells": [4, 1, 1], "box": [[0, 0, 0], [4, 1, 0.5]], "material": {"law": "neo-Hookean",
+        "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}, "supports": [{"on": "x-"})" +
+                        sides + R"(], "loads": [{"on": "y+", "type": "pressure", "pressure": 100}]}],)",
+                    R"({"do": "statics", "load_steps": 2})"));
+    EXPECT_EQ(displacementAt(built, {4, 1, 0}).z, 0.0);
+    return displacementAt(built, {4, 1, 0}).y;
+  };
+  const double layer = tip("hex8", R"(, {"on": "z-", "components": ["z"]}, {"on": "z+", "components": ["z"]})");
+  EXPECT_LT(layer, -1e-3);
+  EXPECT_NEAR(tip("quad4", ""), layer, 1e-9 * std::abs(layer));
+}
+
+TEST(CellFields, StrainsOfASimpleShear) {
+  const Scene scene = sceneFromText(R"({"solids": [{"name": "bar", "mesh": "box", "cells": [2, 1, 1],
+      "box": [[0, 0, 0], [2, 1, 1]], "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3,
+      "density": 1000}}], )" + runs + "}",
+                                    "s.json", "/");
+  Built built = started(scene);
+  fem::Nodes& nodes = built.run->solid(0).nodes();
+  for (std::size_t n = 0; n < nodes.X.size(); ++n) nodes.u[n] = {1e-3 * nodes.X[n].y, 0.0, 0.0};
+  const auto fields = elementStrains(*built.run->solid(0).model, 2);
+  ASSERT_EQ(fields.size(), 3U);
+  EXPECT_NEAR(fields[0].values[1], 5e-4, 1e-9);
+  EXPECT_NEAR(fields[1].values[0], 0.0, 1e-12);
+  EXPECT_NEAR(fields[2].values[1], 1e-3, 1e-9);
+  // A turn is no strain.
+  const double c = std::cos(0.5), s = std::sin(0.5);
+  for (std::size_t n = 0; n < nodes.X.size(); ++n) {
+    const Vec3& X = nodes.X[n];
+    nodes.u[n] = {c * X.x - s * X.y - X.x, s * X.x + c * X.y - X.y, 0.0};
+  }
+  EXPECT_NEAR(elementStrains(*built.run->solid(0).model, 2)[2].values[0], 0.0, 1e-12);
+}
+
+TEST(CellFields, MeansOfCells) {
+  const Built built = started(blockScene(runs, discs(R"("number": 2, )")));
+  const fem::Model& model = *built.run->solid(0).model;
+  int dimension = 0;
+  const CellMeasures mean = meanOfCells(model, nullptr, dimension);
+  EXPECT_EQ(dimension, 2);
+  EXPECT_NEAR(mean.pressure(2), 1e5, 2e2);
+  EXPECT_LT(mean.stressRatio(2), 2e-2);
+  const std::vector<rve::Rve>& cells = built.cells.at("sand");
+  double e = 0.0;
+  for (const rve::Rve& cell : cells) e += 0.5 * (1.0 / rve::solidFraction(cell) - 1.0);
+  EXPECT_NEAR(mean.voidRatio, e, 1e-12);
+  const std::vector<MeshField> fields = elementCells(model, 1);
+  ASSERT_EQ(fields.size(), 4U);
+  EXPECT_NEAR(fields[0].values[0], e, 1e-12);
+  EXPECT_NEAR(fields[3].values[0] + fields[3].values[4], 1.0, 1e-12);  // of fabric: trace 1
+  const Vec3 corner{0.0, 0.0, 0.0};
+  EXPECT_NEAR(meanOfCells(model, &corner, dimension).voidRatio, 1.0 / rve::solidFraction(cells[0]) - 1.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace dovetail::scene::test
