@@ -118,6 +118,16 @@ const Case stirring{[](const ScratchFolder& folder) { return words(folder, "stir
                     "series.csv", "\n0.03"};
 TEST(Restart, ADrivenClumpGoesOnToTheSameBytes) { expectSameAfter(stirring, SIGKILL, -1); }
 
+/// A ball on a solid whose points have cells of grains.
+const Case onCells{[](const ScratchFolder& folder) {
+                     return words(
+                         folder, "ball-on-cells.json",
+                         {"solids.0.cells=[2, 2, 2]", "cells.0.count=60", "stages=[{\"do\": \"run\", \"time\": 0.02}]"},
+                         "0.004");
+                   },
+                   "series.csv", "\n0.01"};
+TEST(Restart, CellsOfGrainsGoOnToTheSameBytes) { expectSameAfter(onCells, SIGKILL, -1); }
+
 /// Ended while all is brought to rest, by a checkpoint's first bytes.
 const Case relaxing{[](const ScratchFolder& folder) {
                       return words(
