@@ -51,7 +51,7 @@ public:
       case Operator::averagedTangent:
         break;
     }
-    if (history_.frozen) return history_.mean;
+    if (history_.frozen) return history_.at(cell.state.F);
     last_ = numericalTangent(cell, committed);
     asked_ = true;
     return last_;

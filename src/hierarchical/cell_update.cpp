@@ -1,11 +1,11 @@
 // How cells come to F.
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/hierarchical/cell_field.hpp"
+#include "dovetail/rve/deformation_path.hpp"
 
 namespace dovetail::hierarchical {
 
@@ -27,7 +27,7 @@ void validate(const DynamicCells& settings) {
 
 /// @throws NumericalError if there are more than a run could want
 int stepsFor(double strain, const DynamicCells& settings) {
-  const double steps = std::max(1.0, std::ceil(strain / settings.strainPerStep));
+  const double steps = std::max(1.0, std::ceil(strain / settings.strainPerStep * (1.0 - 1e-12)));
   if (!(steps <= 1e6))
     throw NumericalError("F is a strain of " + formatNumber(strain) + " away, which takes " + formatNumber(steps) +
                              " steps of the grains",
@@ -54,17 +54,11 @@ void relax(rve::Rve& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& set
 
 void stepTo(rve::Rve& cell, const Eigen::Matrix3d& F, const DynamicCells& settings) {
   validate(settings);
-  if (!F.allFinite() || !(F.determinant() > 0.0))
-    throw InputError("the determinant of F is " + formatNumber(F.determinant()), where,
-                     "give an F that is finite and turns nothing inside out");
-  const Eigen::Matrix3d start = cell.state.F, way = F - start;
-  const Eigen::Matrix3d G = rve::relativeDeformation(cell, F) - Eigen::Matrix3d::Identity();
-  const int steps = stepsFor(0.5 * (G + G.transpose()).norm(), settings);
-  for (int k = 1; k <= steps; ++k) {
-    const Eigen::Matrix3d next = k == steps ? F : Eigen::Matrix3d(start + way * (double(k) / steps));
-    rve::step(cell, settings.stepFraction * cell.state.criticalStep, rve::relativeDeformation(cell, next),
-              settings.damping);
-  }
+  const rve::DeformationPath path(cell, F);
+  const int steps = stepsFor(path.strain(), settings);
+  for (int k = 1; k <= steps; ++k)
+    rve::step(cell, settings.stepFraction * cell.state.criticalStep,
+              rve::relativeDeformation(cell, path.at(double(k) / steps)), settings.damping);
 }
 
 }  // namespace dovetail::hierarchical

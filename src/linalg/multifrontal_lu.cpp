@@ -252,12 +252,14 @@ bool MultifrontalLu::solve(std::span<double> b, int columns) const {
   for (int refinement = 0; refinement < 4; ++refinement) {
     // Componentwise backward error (Oettli and Prager).
     Eigen::MatrixXd residual = rightSide, size = rightSide.cwiseAbs();
+    // A row that is to make nothing of next to nothing is compared with what the largest unknown would make there.
+    const Eigen::RowVectorXd little = 1e-6 * x.cwiseAbs().colwise().maxCoeff();
     for (const Impl::Part& part : m.parts_) {
       const auto matrix = m.matrixOf(part);
       m.forUnknowns(part, [&](int c, int column) {
         m.forUnknowns(part, [&](int r, int row) {
           residual.row(row) -= matrix(r, c) * x.row(column);
-          size.row(row) += std::abs(matrix(r, c)) * x.row(column).cwiseAbs();
+          size.row(row) += std::abs(matrix(r, c)) * x.row(column).cwiseAbs().cwiseMax(little);
         });
       });
     }

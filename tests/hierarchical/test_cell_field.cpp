@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "solids_of_cells.hpp"
 
@@ -79,6 +80,20 @@ TEST(CellField, ACommittedCellStaysAsItIs) {
     asked.field().commit();
     EXPECT_EQ(asked(F), P);
     EXPECT_EQ(asked.dissipated[0], 0.0);
+  }
+}
+
+TEST(CellField, TurnedCellsPressAsBefore) {
+  for (const auto& samples : {oneCell(), std::vector<rve::Rve>{rve::pressedSpheres(64)}}) {
+    Asked asked(cellField(samples));
+    const Eigen::Matrix3d F = plane(0.999, 3e-4, 0, 1.0), R = rve::turned(20.0 / 180.0 * std::numbers::pi);
+    const Eigen::Matrix3d P = asked(F);
+    const double stored = asked.energy[0];
+    asked.field().commit();
+    EXPECT_LT((asked(R * F) - R * P).norm(), 1e-12 * P.norm());
+    EXPECT_EQ(asked.reason[0], "");
+    EXPECT_NEAR(asked.energy[0], stored, 1e-12 * stored);
+    EXPECT_NEAR(asked.dissipated[0], 0.0, 1e-12 * stored);
   }
 }
 

@@ -75,10 +75,18 @@ inline double scalarProduct(const Components& a, const Components& b) {
   return sum;
 }
 
-/// Every condition all round, and a sheared layer's.
+/// A layer on a held bottom that repeats sideways.
+inline Conditions layerUnder(SideCondition top, bool cornersHeld = false) {
+  const Condition D = Condition::displacement, P = Condition::periodic;
+  return {.bottom = D, .right = P, .top = top, .left = P, .cornersHeld = cornersHeld};
+}
+
+/// Every condition all round, layers under traction, under traction across alone (Liu 2018, eq. 2.43), and others that
+/// differ by component.
 inline std::vector<Conditions> kindsOfFrames() {
   const Condition D = Condition::displacement, P = Condition::periodic, T = Condition::traction;
-  return {everywhere(D), everywhere(P), everywhere(T), {.bottom = D, .right = P, .top = T, .left = P}};
+  return {everywhere(D),      everywhere(P),      everywhere(T),     layerUnder(T), layerUnder({D, T}, true),
+          layerUnder({D, T}), everywhere({P, T}), everywhere({T, D})};
 }
 
 }  // namespace dovetail::rve

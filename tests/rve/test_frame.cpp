@@ -45,7 +45,7 @@ TEST(Frame, ArraysHaveTheirStressAtFullAndHalfWeight) {
 }
 
 TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
-  Rve wrapped = pressedDiscs(100, 4);  // no contact begins or ends on the way
+  Rve wrapped = pressedDiscs(100, 2);  // no contact begins or ends on the way
   // What slips depends on the last digits.
   Springs sticking = wrapped.springs;
   sticking.friction = std::numeric_limits<double>::infinity();
@@ -66,7 +66,7 @@ TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
 
 TEST(Frame, HillAndMandelsConditionHoldsInEverySpaceInSlidingStates) {
   std::mt19937 random(4);
-  const Rve start = pressedDiscs(100);
+  const Rve start = pressedDiscs(100, 2);
   for (const Conditions& conditions : kindsOfFrames()) {
     Rve cell = framed(start, conditions);
     // A little compression, so that no space lets the grains fall apart.
@@ -130,12 +130,71 @@ TEST(Frame, ConditionsHoldOnTheWay) {
   }
 }
 
+TEST(Frame, CopiesMoveAlikeWhateverElseTheyObey) {
+  const Rve start = pressedDiscs(100);
+  const double side = norm(start.state.lattice.period[0]);
+  for (const Conditions& conditions : kindsOfFrames()) {
+    if (conditions.left.along != Condition::periodic || conditions.left.across != Condition::periodic) continue;
+    Rve cell = framed(start, conditions);
+    for (int k = 1; k <= 3; ++k) followPath(cell, plane(1, 0.01 * k, 0, 1 - 0.001 * k), {.rest = {.steps = 0}});
+    const Frame& frame = cell.frame;
+    int pairs = 0;
+    for (const std::vector<int>& group : frame.alike)
+      for (const int p : group)
+        for (const int q : group) {
+          const auto a = static_cast<std::size_t>(p), b = static_cast<std::size_t>(q);
+          const Vec3 apart = frame.place[b] - frame.place[a];
+          if (std::abs(apart.x - side) > 1e-3 * side || std::abs(apart.y) > 1e-3 * side) continue;
+          ++pairs;
+          const auto i = static_cast<std::size_t>(frame.grain[a]), j = static_cast<std::size_t>(frame.grain[b]);
+          const CellState& s = cell.state;
+          const Eigen::Vector2d X(apart.x, apart.y), x(s.x[0][j] - s.x[0][i], s.x[1][j] - s.x[1][i]);
+          EXPECT_LT((x - s.F.topLeftCorner<2, 2>() * X).norm(), 1e-13 * side);
+          for (const std::vector<double>* v : {&s.v[0], &s.v[1], &s.spin[2]}) EXPECT_EQ((*v)[i], (*v)[j]);
+        }
+    EXPECT_GT(pairs, 4);
+  }
+}
+
+TEST(Frame, AlongAndAcrossAreHeldApart) {
+  const Condition D = Condition::displacement, T = Condition::traction;
+  Rve cell = framed(pressedDiscs(100), layerUnder({D, T}, true));
+  deform(cell, turned(0.5));
+  followPath(cell, turned(0.5) * plane(1, 0.01, 0, 0.999), {.rest = {.steps = 0}});
+  project(cell, cell.state.v, cell.state.spin);  // turned since by half the shear of a step
+  const Frame& frame = cell.frame;
+  const Eigen::Vector2d along = turned(0.5).col(0).head<2>();
+  const auto isHeld = [&](std::size_t c, int q) {
+    return std::ranges::find(frame.freedom[c].held, q) != frame.freedom[c].held.end();
+  };
+  double fastest = 0.0;
+  int held = 0, corners = 0, moving = 0;
+  for (const double v : cell.state.v[0]) fastest = std::max(fastest, std::abs(v));
+  for (std::size_t q = 0; q < frame.grain.size(); ++q) {
+    const auto g = static_cast<std::size_t>(frame.grain[q]);
+    const Eigen::Vector2d v(cell.state.v[0][g], cell.state.v[1][g]);
+    const int place = static_cast<int>(q);
+    if (!isHeld(0, place)) continue;
+    ++held;
+    EXPECT_LT(std::abs(along.dot(v)), 1e-12 * fastest);
+    moving += v.norm() > 1e-3 * fastest ? 1 : 0;
+    if (!isHeld(1, place)) continue;
+    ++corners;  // and the bottom
+    EXPECT_LT(v.norm(), 1e-12 * fastest);
+  }
+  EXPECT_GT(held, corners + 5);
+  EXPECT_GT(moving, 3);
+  const Eigen::Matrix2d P = stressOfReactions(cell).topLeftCorner<2, 2>();
+  EXPECT_TRUE(P.allFinite());
+}
+
 TEST(Frame, WhatCannotBeFramedIsRefused) {
   EXPECT_THROW(framed(pressedSpheres(48), everywhere(Condition::periodic)), InputError);
   const Rve cell = squareArray(4);
   const Rve cut = framed(cell, everywhere(Condition::periodic));
   EXPECT_THROW(framed(cut, everywhere(Condition::periodic)), InputError);
   EXPECT_THROW(framed(cell, {.bottom = Condition::displacement}), InputError);
+  EXPECT_THROW(framed(cell, {.left = {Condition::traction, Condition::periodic}}), InputError);
   Rve pressed = cut;
   EXPECT_THROW(compress(pressed, {}), InputError);
 }

@@ -1,52 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
-#include <limits>
 
 #include "dovetail/core/error.hpp"
 #include "ledger.hpp"
 
 namespace dovetail::rve {
 namespace {
-
-TEST(Motion, ATurnInManyStepsTurnsTheStress) {
-  Rve start = pressedDiscs(60);
-  followPath(start, plane(1.005, 0.004, 0.0, 0.99));
-  const Eigen::Matrix3d R = turned(0.6), expected = R * stress(start).cauchy * R.transpose();
-  const auto errorOf = [&](int steps) {
-    Rve cell = start;
-    for (int k = 0; k < steps; ++k) deform(cell, turned(0.6 / steps));
-    return (stress(cell).cauchy - expected).norm() / expected.norm();
-  };
-  // Discs keep their springs' lengths, and Cayley's rate of a turn is no strain.
-  EXPECT_LT(errorOf(1), 1e-11);
-  EXPECT_LT(errorOf(50), 1e-11);
-}
-
-TEST(Motion, SpheresTurnWithTheirCellAsStepsShrink) {
-  Rve start = pressedSpheres(48);
-  Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
-  shear(0, 1) = 0.01;
-  shear(2, 2) = 0.99;
-  followPath(start, shear);
-  // What slips on the way would not come back as the steps shrink.
-  Springs sticking = start.springs;
-  sticking.friction = std::numeric_limits<double>::infinity();
-  setSprings(start, sticking);
-  const auto turnedBy = [](double angle) {
-    return Eigen::AngleAxisd(angle, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-  };
-  const Eigen::Matrix3d expected = turnedBy(0.5) * stress(start).cauchy * turnedBy(0.5).transpose();
-  const auto errorOf = [&](int steps) {
-    Rve cell = start;
-    for (int k = 0; k < steps; ++k) deform(cell, turnedBy(0.5 / steps));
-    return (stress(cell).cauchy - expected).norm() / expected.norm();
-  };
-  const double coarse = errorOf(80), fine = errorOf(160);
-  EXPECT_LT(fine, 5e-4);
-  EXPECT_NEAR(coarse / fine, 2.0, 0.1) << coarse << " " << fine;
-}
 
 TEST(Motion, TheLedgerOfAPathClosesAsStepsShrink) {
   expectLedgerClosesAsStepsShrink(pressedDiscs(100), 4,

@@ -176,11 +176,6 @@ TEST(UnusualCells, GrainsAtOnePlaceAreNamed) {
   }
 }
 
-TEST(UnusualCells, HalfATurnIsNoStep) {
-  Rve cell = pressedDiscs(60);
-  EXPECT_THROW(deform(cell, plane(-1.0, 0.0, 0.0, -1.0)), NumericalError);
-}
-
 TEST(UnusualCells, BanksHoldWhatCellsWere) {
   // Faces have come closer since the last list was made.
   const double side = 1.01 * 4.4e-3;

@@ -95,7 +95,7 @@ std::optional<Border> borderThrough(const Rve& cell, int corner) {
   }
   const std::vector<Placed> along = sorted(bottom), up = sorted(left);
   const Placed c{corner, {}};
-  Border border;
+  Border border{.side = {}, .sideways = a, .upwards = b, .inner = {}};
   border.side = {sideOf(c, along, false, b, 0), sideOf(moved(c, a, 1), up, false, a, 1),
                  sideOf(moved(moved(c, a, 1), b, 1), along, true, b, 1), sideOf(moved(c, b, 1), up, true, a, 0)};
   std::vector<Vec3> polygon;

@@ -19,6 +19,7 @@ struct Placed {
 struct Border {
   /// Counter-clockwise from the corner: bottom, right, top, left, each with the corner at its beginning.
   std::array<std::vector<Placed>, 4> side;
+  std::size_t sideways, upwards;  ///< period that leads from left to right, and from bottom to top
   std::vector<Placed> inner;
 };
 

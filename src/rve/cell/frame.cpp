@@ -11,6 +11,7 @@
 #include "contacts/touching.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/rve/rve.hpp"
+#include "freedom.hpp"
 #include "motion/projection.hpp"
 
 namespace dovetail::rve {
@@ -21,31 +22,21 @@ constexpr const char* where = "framed cell";
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Condition atCorner(Condition one, Condition other) {
-  for (const Condition c : {Condition::displacement, Condition::traction})
-    if (one == c || other == c) return c;
-  return Condition::periodic;
-}
-
 void check(const Rve& cell, const Conditions& conditions) {
   if (cell.shape != Shape::disc) throw InputError("the grains are spheres", where, "use a periodic cell for spheres");
   if (!cell.frame.empty()) throw InputError("the cell has a frame already", where, "give a periodic cell");
   if (!cell.state.contacts.bond.empty())
     throw InputError("the cell is bonded", where, "cut a cell that is not, and bond it then");
   const auto differ = [](Condition a, Condition b) { return (a == Condition::periodic) != (b == Condition::periodic); };
-  if (differ(conditions.left, conditions.right) || differ(conditions.bottom, conditions.top))
-    throw InputError("a side is periodic and the opposite one is not", where, "make both periodic, or none");
+  for (Condition SideCondition::*part : {&SideCondition::along, &SideCondition::across})
+    if (differ(conditions.left.*part, conditions.right.*part) || differ(conditions.bottom.*part, conditions.top.*part))
+      throw InputError("a side is periodic and the opposite one is not", where, "make both periodic, or none");
 }
 
 /// All grains of the framed cell: the frame first.
-std::vector<Placed> collect(const Border& border, const Conditions& conditions, Frame& frame) {
-  const Condition on[4] = {conditions.bottom, conditions.right, conditions.top, conditions.left};
+std::vector<Placed> collect(const Border& border, Frame& frame) {
   std::vector<Placed> all;
-  for (std::size_t k = 0; k < 4; ++k)
-    for (std::size_t m = 0; m < border.side[k].size(); ++m) {
-      frame.on.push_back(m == 0 ? atCorner(on[k], on[(k + 3) % 4]) : on[k]);
-      all.push_back(border.side[k][m]);
-    }
+  for (const std::vector<Placed>& side : border.side) all.insert(all.end(), side.begin(), side.end());
   frame.grain.resize(all.size());
   std::iota(frame.grain.begin(), frame.grain.end(), 0);
   all.insert(all.end(), border.inner.begin(), border.inner.end());
@@ -97,8 +88,9 @@ void inheritSprings(Rve& cell, const Rve& from) {
 Rve cutAlong(const Rve& from, const Border& border, const Conditions& conditions) {
   Rve cell;
   Frame frame;
-  const std::vector<Placed> all = collect(border, conditions, frame);
+  const std::vector<Placed> all = collect(border, frame);
   joinAlike(frame, from.size());
+  setFreedom(frame, border, conditions);
   Grains grains{.density = from.density};
   for (const Placed& placed : all) {
     grains.centre.push_back(centreOf(from, placed));
@@ -113,18 +105,11 @@ Rve cutAlong(const Rve& from, const Border& border, const Conditions& conditions
   cell.frame = std::move(frame);
   updateNeighbourList(cell);
   inheritSprings(cell, from);
-  sweep(cell, 0.0, Eigen::Matrix3d::Zero());
+  sweep(cell, 0.0);
   return cell;
 }
 
 }  // namespace
-
-std::vector<int> Frame::those(Condition condition) const {
-  std::vector<int> places;
-  for (std::size_t q = 0; q < on.size(); ++q)
-    if (on[q] == condition) places.push_back(static_cast<int>(q));
-  return places;
-}
 
 Rve framed(const Rve& cell, const Conditions& conditions) {
   check(cell, conditions);
@@ -157,11 +142,11 @@ Eigen::Matrix3d stressOfReactions(const Rve& cell) {
   const std::vector<Vec3> a = reactions(cell);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t q = 0; q < a.size(); ++q) {
-    const Vec3& X = cell.frame.place[q];
-    sum += Eigen::Vector3d(a[q].x, a[q].y, a[q].z) * Eigen::RowVector3d(X.x, X.y, X.z);
+    const std::size_t g = at(cell.frame.grain[q]);
+    sum += Eigen::Vector3d(a[q].x, a[q].y, a[q].z) * Eigen::RowVector3d(cell.state.x[0][g], cell.state.x[1][g], 0.0);
   }
   const Eigen::Matrix3d& F = cell.state.F;
-  const Eigen::Matrix3d kirchhoff = sum * F.transpose() / cell.volume;
+  const Eigen::Matrix3d kirchhoff = sum / cell.volume;
   return 0.5 * (kirchhoff + kirchhoff.transpose()) * F.inverse().transpose();
 }
 

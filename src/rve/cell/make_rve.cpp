@@ -126,7 +126,7 @@ Rve makeRve(const Grains& grains, const geometry::Lattice& lattice, const Spring
                        "take more grains: " + formatNumber(2.0 * listReach(cell)) +
                            " m, two of the largest diameters and skins, are the least");
   updateNeighbourList(cell);
-  sweep(cell, 0.0, Eigen::Matrix3d::Zero());
+  sweep(cell, 0.0);
   requireFiniteForces(cell);
   return cell;
 }
@@ -177,7 +177,7 @@ void setSprings(Rve& cell, const Springs& springs) {
   if (!contacts.tangent.empty())  // stretches stay, whatever k_t was
     forEachTouch(cell,
                  [&](const Touch& touch) { contacts.tangent[touch.contact] = springs.tangential * touch.stiffness; });
-  sweep(cell, 0.0, Eigen::Matrix3d::Zero());
+  sweep(cell, 0.0);
   ledger.work += accounted() - before;
 }
 

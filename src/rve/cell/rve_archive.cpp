@@ -1,15 +1,15 @@
 #include "dovetail/rve/rve_archive.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <bit>
-#include <cmath>
+#include <string>
 #include <type_traits>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "make_rve.hpp"
 #include "own_state.hpp"
+#include "sound_state.hpp"
 
 namespace dovetail::rve {
 
@@ -47,61 +47,15 @@ std::uint64_t checksum(const Rve& cell) {
   for (const std::vector<double>* numbers : {&cell.radius, &cell.mass, &cell.inertia})
     for (const double number : *numbers) add(number);
   for (const int grain : cell.frame.grain) add(grain);
-  for (const Condition condition : cell.frame.on) add(static_cast<double>(condition));
-  return hash;
-}
-
-bool finite(const std::vector<double>& values) {
-  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
-}
-
-enum class Use { moves, turns };
-
-/// Whether there is one number a grain of the components in use: of discs x, y of motions and z of turns.
-bool fits(const Rve& cell, const Components& field, Use use) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const bool inUse = cell.shape == Shape::sphere || (k == 2) == (use == Use::turns);
-    if (field[k].size() != (inUse ? cell.size() : 0) || !finite(field[k])) return false;
+  for (const Freedom& freedom : cell.frame.freedom) {
+    for (const int place : freedom.held) add(place);
+    for (const std::vector<std::vector<int>>* sets : {&freedom.together, &freedom.balanced}) {
+      add(static_cast<double>(sets->size()));
+      for (const std::vector<int>& set : *sets)
+        for (const int place : set) add(place);
+    }
   }
-  return true;
-}
-
-/// Bonds are all there or none, and a cell without a law has none.
-bool fits(const Rve& cell, const std::vector<Bond>& bonds, std::size_t contacts) {
-  if (bonds.empty()) return true;
-  return bonds.size() == contacts && cell.bonds.normal > 0.0 && std::ranges::all_of(bonds, [](const Bond& b) {
-           return std::isfinite(b.length + b.fraction + b.stretch + b.turn) && b.length >= 0.0 && b.fraction >= 0.0;
-         });
-}
-
-bool fits(const Rve& cell, const Contacts& contacts) {
-  const std::size_t n = cell.size(), size = contacts.size();
-  if (contacts.first.size() != n + 1 || contacts.first.front() != 0 ||
-      contacts.first.back() != static_cast<int>(size) || !std::ranges::is_sorted(contacts.first))
-    return false;
-  const auto isGrain = [n](int j) { return j >= 0 && static_cast<std::size_t>(j) < n; };
-  for (std::size_t k = 0; k < 3; ++k)
-    if (contacts.stretch[k].size() != (k == 0 || cell.shape == Shape::sphere ? size : 0) ||
-        !finite(contacts.stretch[k]))
-      return false;
-  return std::ranges::all_of(contacts.other, isGrain) && contacts.image.size() == size &&
-         std::ranges::all_of(contacts.image, [](std::uint8_t image) { return image < 27; }) &&
-         contacts.stiffness.size() == size && finite(contacts.stiffness) &&
-         contacts.roll.size() == (cell.springs.rolls() ? size : 0) && finite(contacts.roll) &&
-         contacts.tangent.size() == (cell.springs.elasticSpheres() && cell.springs.slides() ? size : 0) &&
-         finite(contacts.tangent) && fits(cell, contacts.bond, size);
-}
-
-bool fits(const Rve& cell, const CellState& state) {
-  for (const Vec3& period : state.lattice.period)
-    if (!std::isfinite(norm(period))) return false;
-  const RveLedger& ledger = state.ledger;
-  return state.F.allFinite() && state.F.determinant() > 0.0 && state.virial.allFinite() &&
-         state.lattice.volume() > 0.0 && state.remainingSkin <= cell.skin && std::isfinite(state.remainingSkin) &&
-         std::isfinite(state.criticalStep) && state.criticalStep > 0.0 &&
-         std::isfinite(ledger.work + ledger.friction + ledger.damping + ledger.bonds) &&
-         fits(cell, state.x, Use::moves) && fits(cell, state.v, Use::moves) && fits(cell, state.force, Use::moves) &&
-         fits(cell, state.spin, Use::turns) && fits(cell, state.torque, Use::turns) && fits(cell, state.contacts);
+  return hash;
 }
 
 constexpr const char* samplesKind = "cells of grains";
@@ -144,11 +98,14 @@ Made madeOf(const Rve& cell) {
   return made;
 }
 
+/// @throws InputError if it is not what a cell may be made of
 Rve cellOf(const Made& made) {
   geometry::Lattice lattice{.period = made.period};
   for (std::size_t k = 0; k < 3; ++k) lattice.axes[k] = made.repeats[k] != 0;
-  Rve cell = cellWithoutContacts({made.isDisc ? Shape::disc : Shape::sphere, made.centre, made.radius, made.density},
-                                 lattice, made.springs);
+  const Shape shape = made.isDisc ? Shape::disc : Shape::sphere;
+  requireSound(lattice, shape, "periods");
+  Rve cell = cellWithoutContacts({shape, made.centre, made.radius, made.density}, lattice, made.springs);
+  if (made.bonds != BondLaw{}) validate(made.bonds);
   cell.bonds = made.bonds;
   cell.volume = requirePositive(made.volume, "volume of a cell");
   cell.skin = requirePositive(made.skin, "skin of a cell");
@@ -164,11 +121,13 @@ void writeState(const Rve& cell, const CellState& state, ByteWriter& archive) {
   listFields(archive, state, F, virial);
 }
 
-CellState readState(const Rve& cell, ByteReader& archive) {
+namespace {
+
+CellState readState(const Rve& cell, ByteReader& archive, const std::string& where) {
   std::uint64_t writtenFor = 0;
   archive(writtenFor);
   if (writtenFor != checksum(cell))
-    throw InputError("the state is of a cell with other grains or springs", "cell of grains",
+    throw InputError("the state is of a cell with other grains or springs", where,
                      "read it into the cell that wrote it");
   CellState state;
   state.lattice.axes = cell.state.lattice.axes;
@@ -178,10 +137,13 @@ CellState readState(const Rve& cell, ByteReader& archive) {
   listFields(archive, state, F, virial);
   state.F = Eigen::Map<const Eigen::Matrix3d>(F.data());
   state.virial = Eigen::Map<const Eigen::Matrix3d>(virial.data());
-  if (!fits(cell, state))
-    throw InputError("the state is inconsistent", "cell of grains", "take an older file, this one is damaged");
+  requireSound(cell, state, where);
   return state;
 }
+
+}  // namespace
+
+CellState readState(const Rve& cell, ByteReader& archive) { return readState(cell, archive, "state of a cell"); }
 
 void writeSamples(const std::filesystem::path& path, std::span<const Rve> cells) {
   ByteWriter archive;
@@ -198,10 +160,16 @@ std::vector<Rve> readSamples(const std::filesystem::path& path) {
   ByteReader archive(readChecked(path, samplesKind));
   std::vector<Rve> cells;
   while (!archive.atEnd()) {
+    const std::string where = "cell " + std::to_string(cells.size()) + " of " + path.string();
     Made made;
     archive(made);
-    cells.push_back(cellOf(made));
-    cells.back().state = readState(cells.back(), archive);
+    try {
+      cells.push_back(cellOf(made));
+    } catch (const InputError& error) {
+      throw InputError(std::string("it cannot be made: ") + error.what(), where,
+                       "take an older file, this one is damaged");
+    }
+    cells.back().state = readState(cells.back(), archive, where);
   }
   return cells;
 }

@@ -56,7 +56,7 @@ void forEachBond(const Rve& cell, const Visit& visit) {
 }
 
 /// The part of sweep that bonds have; those that have reached their strength break.
-void sweepBonds(Rve& cell, double dt, const Eigen::Matrix3d& L);
+void sweepBonds(Rve& cell, double dt, const MeanMotion& motion);
 
 ContactMatrix linearised(const Rve& cell, const BondTouch& bond, const Linearisation& what);
 

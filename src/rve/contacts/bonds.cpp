@@ -18,12 +18,7 @@ constexpr const char* where = "bonds of a cell";
 void check(const Rve& cell, const BondLaw& law) {
   if (cell.shape != Shape::disc) throw InputError("the grains are spheres", where, "bond discs");
   if (!cell.state.contacts.bond.empty()) throw InputError("the cell is bonded already", where, "give one that is not");
-  requirePositive(law.normal, "normal stiffness of the bonds");
-  requireNonNegative(law.shear, "shear stiffness of the bonds");
-  requireNonNegative(law.bending, "bending stiffness of the bonds");
-  for (const double strength : {law.tensileStrength, law.shearStrength, law.bendingStrength})
-    if (!(strength > 0.0))
-      throw InputError("a strength is " + formatNumber(strength), where, "give one above 0, or infinity");
+  validate(law);
 }
 
 bool breaks(const BondLaw& law, const BondTouch& b) {
@@ -66,6 +61,15 @@ void addForces(Rve& cell, const BondTouch& b) {
 
 }  // namespace
 
+void validate(const BondLaw& law) {
+  requirePositive(law.normal, "normal stiffness of the bonds");
+  requireNonNegative(law.shear, "shear stiffness of the bonds");
+  requireNonNegative(law.bending, "bending stiffness of the bonds");
+  for (const double strength : {law.tensileStrength, law.shearStrength, law.bendingStrength})
+    if (!(strength > 0.0))
+      throw InputError("a strength is " + formatNumber(strength), where, "give one above 0, or infinity");
+}
+
 void bond(Rve& cell, const BondLaw& law) {
   check(cell, law);
   Contacts& contacts = cell.state.contacts;
@@ -90,9 +94,9 @@ void bond(Rve& cell, const BondLaw& law) {
   setSprings(cell, cell.springs);  // lists, steps and forces anew; what is too weak breaks
 }
 
-void sweepBonds(Rve& cell, double dt, const Eigen::Matrix3d& L) {
+void sweepBonds(Rve& cell, double dt, const MeanMotion& motion) {
   CellState& s = cell.state;
-  const Eigen::Matrix3d D = 0.5 * (L + L.transpose());
+  const Eigen::Matrix3d& D = motion.rate;
   const std::array<Vec3, 27> shift = imageShifts(s.lattice);
   for (std::size_t i = 0; i < cell.size(); ++i)
     for (int c = s.contacts.first[i]; c < s.contacts.first[i + 1]; ++c) {

@@ -9,19 +9,19 @@
 
 namespace dovetail::rve {
 
-void sweep(Rve& cell, double dt, const Eigen::Matrix3d& L) {
+void sweep(Rve& cell, double dt, const MeanMotion& motion) {
   for (Components* field : {&cell.state.force, &cell.state.torque})
     for (std::vector<double>& component : *field) std::fill(component.begin(), component.end(), 0.0);
   const bool slides = cell.springs.slides(), rolls = cell.springs.rolls();
   if (cell.springs.elasticSpheres())
-    slides ? sweepSpheres<true, true>(cell, dt, L) : sweepSpheres<false, true>(cell, dt, L);
+    slides ? sweepSpheres<true, true>(cell, dt, motion) : sweepSpheres<false, true>(cell, dt, motion);
   else if (cell.shape == Shape::sphere)
-    slides ? sweepSpheres<true, false>(cell, dt, L) : sweepSpheres<false, false>(cell, dt, L);
+    slides ? sweepSpheres<true, false>(cell, dt, motion) : sweepSpheres<false, false>(cell, dt, motion);
   else if (rolls)
-    slides ? sweepDiscs<true, true>(cell, dt, L) : sweepDiscs<false, true>(cell, dt, L);
+    slides ? sweepDiscs<true, true>(cell, dt, motion) : sweepDiscs<false, true>(cell, dt, motion);
   else
-    slides ? sweepDiscs<true, false>(cell, dt, L) : sweepDiscs<false, false>(cell, dt, L);
-  if (!cell.state.contacts.bond.empty()) sweepBonds(cell, dt, L);
+    slides ? sweepDiscs<true, false>(cell, dt, motion) : sweepDiscs<false, false>(cell, dt, motion);
+  if (!cell.state.contacts.bond.empty()) sweepBonds(cell, dt, motion);
 }
 
 void requireFiniteForces(const Rve& cell) {

@@ -7,17 +7,23 @@
 
 namespace dovetail::rve {
 
-/// Forces, torques and Σ f ⊗ b of the grains as they lie; springs of contacts stretch by the motion of the last dt.
-/// @param L  velocity gradient of that motion, 1/s, on top of which the grains have v and spin
-void sweep(Rve& cell, double dt, const Eigen::Matrix3d& L);
+/// What the cell did as a whole in the last dt, on top of which the grains have v and spin.
+struct MeanMotion {
+  Eigen::Matrix3d rate = Eigen::Matrix3d::Zero();      ///< of strain, 1/s, symmetric, in the directions of the end
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< all of it, which springs take part in
+};
+
+/// Forces, torques and Σ f ⊗ b of the grains as they lie; springs of contacts turn and stretch by the motion of the
+/// last dt.
+void sweep(Rve& cell, double dt, const MeanMotion& motion = {});
 
 /// @throws NumericalError naming a grain whose force is not finite
 void requireFiniteForces(const Rve& cell);
 
 template <bool slides, bool rolls>
-void sweepDiscs(Rve& cell, double dt, const Eigen::Matrix3d& L);
+void sweepDiscs(Rve& cell, double dt, const MeanMotion& motion);
 template <bool slides, bool elastic>
-void sweepSpheres(Rve& cell, double dt, const Eigen::Matrix3d& L);
+void sweepSpheres(Rve& cell, double dt, const MeanMotion& motion);
 
 /// What a contact's image is away by, m, by Contacts::image.
 inline std::array<Vec3, 27> imageShifts(const geometry::Lattice& lattice) {

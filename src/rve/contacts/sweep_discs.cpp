@@ -62,11 +62,12 @@ void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows&
 }  // namespace
 
 template <bool slides, bool rolls>
-void sweepDiscs(Rve& cell, double dt, const Eigen::Matrix3d& L) {
+void sweepDiscs(Rve& cell, double dt, const MeanMotion& motion) {
   CellState& s = cell.state;
   const Springs& springs = cell.springs;
-  const DiscLaw law{springs.tangential,        springs.friction, springs.rolling, springs.rollingLimit, dt, L(0, 0),
-                    0.5 * (L(0, 1) + L(1, 0)), L(1, 1)};
+  const Eigen::Matrix3d& D = motion.rate;
+  const DiscLaw law{
+      springs.tangential, springs.friction, springs.rolling, springs.rollingLimit, dt, D(0, 0), D(0, 1), D(1, 1)};
   const double* const vx = s.v[0].data();
   const double* const vy = s.v[1].data();
   const double* const spin = s.spin[2].data();
@@ -125,9 +126,9 @@ void sweepDiscs(Rve& cell, double dt, const Eigen::Matrix3d& L) {
   sums.ledger(s, ended);
 }
 
-template void sweepDiscs<false, false>(Rve&, double, const Eigen::Matrix3d&);
-template void sweepDiscs<true, false>(Rve&, double, const Eigen::Matrix3d&);
-template void sweepDiscs<false, true>(Rve&, double, const Eigen::Matrix3d&);
-template void sweepDiscs<true, true>(Rve&, double, const Eigen::Matrix3d&);
+template void sweepDiscs<false, false>(Rve&, double, const MeanMotion&);
+template void sweepDiscs<true, false>(Rve&, double, const MeanMotion&);
+template void sweepDiscs<false, true>(Rve&, double, const MeanMotion&);
+template void sweepDiscs<true, true>(Rve&, double, const MeanMotion&);
 
 }  // namespace dovetail::rve

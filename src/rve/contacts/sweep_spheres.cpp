@@ -19,9 +19,12 @@ struct SphereRows {
 
 struct SphereLaw {
   double ratio, friction, dt;
-  Vec3 rate[3];  // of strain, by rows
-  Vec3 spin;     // of L
+  Vec3 rate[3], turn[3];  // by rows
 };
+
+[[gnu::always_inline]] inline Vec3 product(const Vec3 (&rows)[3], const Vec3& a) {
+  return {dot(rows[0], a), dot(rows[1], a), dot(rows[2], a)};
+}
 
 /// The parts are those of dem's laws; i looks at j, so n points from i to j and the springs pull i along.
 template <bool slides, bool elastic>
@@ -43,10 +46,9 @@ void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereR
     } else {
       const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
       const Vec3 spinI = vectorAt(r.spinI, m), spinJ = vectorAt(r.spinJ, m);
-      const Vec3 w = vectorAt(r.speed, m) + Vec3{dot(law.rate[0], b), dot(law.rate[1], b), dot(law.rate[2], b)} -
-                     cross(armI * spinI + armJ * spinJ, n);
-      const double twist = law.dt * dot(0.5 * (spinI + spinJ) + law.spin, n);
-      const Vec3 old = dem::carried(vectorAt(r.stretch, m), n, twist), slip = w - dot(w, n) * n;
+      const Vec3 w = vectorAt(r.speed, m) + product(law.rate, b) - cross(armI * spinI + armJ * spinJ, n);
+      const double twist = law.dt * dot(0.5 * (spinI + spinJ), n);
+      const Vec3 old = dem::carried(product(law.turn, vectorAt(r.stretch, m)), n, twist), slip = w - dot(w, n) * n;
       const double kt = law.ratio * k, limit = law.friction * normalForce;
       const dem::Slider<false> now =
           elastic ? dem::slideGrowing<false>(old, r.tangent[m], slip, kt, 0.0, 1.0, limit, contact)
@@ -62,21 +64,21 @@ void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereR
   }
 }
 
-SphereLaw lawOf(const Springs& springs, double dt, const Eigen::Matrix3d& L) {
-  const Eigen::Matrix3d D = 0.5 * (L + L.transpose());
-  return {springs.tangential,
-          springs.friction,
-          dt,
-          {{D(0, 0), D(0, 1), D(0, 2)}, {D(1, 0), D(1, 1), D(1, 2)}, {D(2, 0), D(2, 1), D(2, 2)}},
-          0.5 * Vec3{L(2, 1) - L(1, 2), L(0, 2) - L(2, 0), L(1, 0) - L(0, 1)}};
+SphereLaw lawOf(const Springs& springs, double dt, const MeanMotion& motion) {
+  SphereLaw law{springs.tangential, springs.friction, dt, {}, {}};
+  for (int k = 0; k < 3; ++k) {
+    law.rate[k] = {motion.rate(k, 0), motion.rate(k, 1), motion.rate(k, 2)};
+    law.turn[k] = {motion.turn(k, 0), motion.turn(k, 1), motion.turn(k, 2)};
+  }
+  return law;
 }
 
 }  // namespace
 
 template <bool slides, bool elastic>
-void sweepSpheres(Rve& cell, double dt, const Eigen::Matrix3d& L) {
+void sweepSpheres(Rve& cell, double dt, const MeanMotion& motion) {
   CellState& s = cell.state;
-  const SphereLaw law = lawOf(cell.springs, dt, L);
+  const SphereLaw law = lawOf(cell.springs, dt, motion);
   const double *v[3], *spin[3], *const radius = cell.radius.data(), *const stiffness = s.contacts.stiffness.data();
   double *force[3], *torque[3], *memory[4];  // stretch, and tangent
   for (std::size_t k = 0; k < 3; ++k) {
@@ -139,9 +141,9 @@ void sweepSpheres(Rve& cell, double dt, const Eigen::Matrix3d& L) {
   if constexpr (elastic) s.criticalStep = criticalStep(cell, std::move(slope));
 }
 
-template void sweepSpheres<false, false>(Rve&, double, const Eigen::Matrix3d&);
-template void sweepSpheres<true, false>(Rve&, double, const Eigen::Matrix3d&);
-template void sweepSpheres<false, true>(Rve&, double, const Eigen::Matrix3d&);
-template void sweepSpheres<true, true>(Rve&, double, const Eigen::Matrix3d&);
+template void sweepSpheres<false, false>(Rve&, double, const MeanMotion&);
+template void sweepSpheres<true, false>(Rve&, double, const MeanMotion&);
+template void sweepSpheres<false, true>(Rve&, double, const MeanMotion&);
+template void sweepSpheres<true, true>(Rve&, double, const MeanMotion&);
 
 }  // namespace dovetail::rve

@@ -8,20 +8,42 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-void joinAlike(const Rve& cell, const std::vector<int>& group, Components& v, Components& spin) {
-  double mass = 0.0, inertia = 0.0;
-  Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  // and, third, the angular one
-  for (const int q : group) {
-    const std::size_t g = at(cell.frame.grain[at(q)]);
-    mass += cell.mass[g];
-    inertia += cell.inertia[g];
-    momentum += Eigen::Vector3d(cell.mass[g] * v[0][g], cell.mass[g] * v[1][g], cell.inertia[g] * spin[2][g]);
+/// Nearest values of one component, in the norm of the masses, that the conditions allow.
+void projectOn(const Frame& frame, const Freedom& freedom, const std::vector<double>& mass, std::vector<double>& v) {
+  const auto grain = [&](int q) { return at(frame.grain[at(q)]); };
+  for (const int q : freedom.held) v[grain(q)] = 0.0;
+  const auto massOf = [&](const std::vector<int>& set) {
+    double sum = 0.0;
+    for (const int q : set) sum += mass[grain(q)];
+    return sum;
+  };
+  for (const std::vector<int>& set : freedom.together) {
+    double momentum = 0.0;
+    for (const int q : set) momentum += mass[grain(q)] * v[grain(q)];
+    for (const int q : set) v[grain(q)] = momentum / massOf(set);
   }
-  for (const int q : group) {
-    const std::size_t g = at(cell.frame.grain[at(q)]);
-    v[0][g] = momentum[0] / mass;
-    v[1][g] = momentum[1] / mass;
-    spin[2][g] = momentum[2] / inertia;
+  if (freedom.balanced.empty()) return;
+  Eigen::Vector2d motion = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d areas = Eigen::Matrix2d::Zero();
+  for (const std::vector<int>& set : freedom.balanced) {
+    const Eigen::Vector2d area = areaOf(frame, set);
+    motion += v[grain(set.front())] * area;
+    areas += area * area.transpose() / massOf(set);
+  }
+  const Eigen::Vector2d multiplier = inverseOfAreas(areas) * motion;
+  for (const std::vector<int>& set : freedom.balanced) {
+    const double taken = multiplier.dot(areaOf(frame, set)) / massOf(set);
+    for (const int q : set) v[grain(q)] -= taken;
+  }
+}
+
+/// The frame's grains, turned by an angle.
+void turnFrame(const Frame& frame, Components& v, const Eigen::Vector2d& direction) {
+  for (const int grain : frame.grain) {
+    const std::size_t g = at(grain);
+    const Eigen::Vector2d old(v[0][g], v[1][g]);
+    v[0][g] = direction[0] * old[0] - direction[1] * old[1];
+    v[1][g] = direction[1] * old[0] + direction[0] * old[1];
   }
 }
 
@@ -29,36 +51,30 @@ void joinAlike(const Rve& cell, const std::vector<int>& group, Components& v, Co
 
 Eigen::Matrix2d inverseOfAreas(const Eigen::Matrix2d& areas) {
   const double trace = areas.trace();
+  if (trace == 0.0) return areas;
   if (areas.determinant() > 1e-12 * trace * trace) return areas.inverse();
   return areas / (trace * trace);
+}
+
+Eigen::Vector2d areaOf(const Frame& frame, const std::vector<int>& set) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const int q : set) sum += Eigen::Vector2d(frame.area[at(q)].x, frame.area[at(q)].y);
+  return sum;
+}
+
+Eigen::Vector2d alongOf(const Rve& cell) {
+  if (!cell.frame.byComponent) return Eigen::Vector2d::UnitX();
+  return cell.state.F.col(0).head<2>().normalized();
 }
 
 void project(const Rve& cell, Components& v, Components& spin) {
   const Frame& frame = cell.frame;
   if (frame.empty()) return;
-  for (const int q : frame.those(Condition::displacement)) {
-    const std::size_t g = at(frame.grain[at(q)]);
-    v[0][g] = v[1][g] = spin[2][g] = 0.0;
-  }
-  for (const std::vector<int>& group : frame.alike)
-    if (frame.on[at(group.front())] == Condition::periodic) joinAlike(cell, group, v, spin);
-  const std::vector<int> free = frame.those(Condition::traction);
-  if (free.empty()) return;
-  Eigen::Matrix2d motion = Eigen::Matrix2d::Zero(), areas = Eigen::Matrix2d::Zero();
-  for (const int q : free) {
-    const std::size_t g = at(frame.grain[at(q)]);
-    const Eigen::Vector2d area(frame.area[at(q)].x, frame.area[at(q)].y);
-    motion += Eigen::Vector2d(v[0][g], v[1][g]) * area.transpose();
-    areas += area * area.transpose() / cell.mass[g];
-  }
-  const Eigen::Matrix2d multiplier = motion * inverseOfAreas(areas);
-  for (const int q : free) {
-    const std::size_t g = at(frame.grain[at(q)]);
-    const Eigen::Vector2d area(frame.area[at(q)].x, frame.area[at(q)].y);
-    const Eigen::Vector2d taken = multiplier * area / cell.mass[g];
-    v[0][g] -= taken[0];
-    v[1][g] -= taken[1];
-  }
+  const Eigen::Vector2d along = alongOf(cell);
+  if (frame.byComponent) turnFrame(frame, v, {along[0], -along[1]});
+  for (std::size_t k = 0; k < 2; ++k) projectOn(frame, frame.freedom[k], cell.mass, v[k]);
+  if (frame.byComponent) turnFrame(frame, v, along);
+  projectOn(frame, frame.freedom[2], cell.inertia, spin[2]);
 }
 
 namespace {

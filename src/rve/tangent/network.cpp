@@ -4,7 +4,6 @@
 
 #include "contacts/bonded.hpp"
 #include "dovetail/core/error.hpp"
-#include "motion/projection.hpp"
 
 namespace dovetail::rve {
 
@@ -28,7 +27,7 @@ Eigen::Matrix<double, Eigen::Dynamic, Matrix::ColsAtCompileTime, 0, 9, Matrix::M
 }
 
 /// By columns.
-auto entries(auto& matrix) { return std::span(matrix.data(), static_cast<std::size_t>(matrix.size())); }
+auto entries(auto&& matrix) { return std::span(matrix.data(), static_cast<std::size_t>(matrix.size())); }
 
 [[noreturn]] void failSingular() {
   throw NumericalError("the network of contacts is singular", "cell of grains",
@@ -38,7 +37,10 @@ auto entries(auto& matrix) { return std::span(matrix.data(), static_cast<std::si
 }  // namespace
 
 Network::Network(const Rve& cell, const Linearisation& what)
-    : cell_(cell), perGrain_(cell.shape == Shape::disc ? 3 : 6), strains_(cell.dimension() * cell.dimension()) {
+    : cell_(cell),
+      frame_(rowsOf(cell)),
+      perGrain_(cell.shape == Shape::disc ? 3 : 6),
+      strains_(cell.dimension() * cell.dimension()) {
   numberUnknowns();
   forceByStrain_ = Eigen::MatrixXd::Zero(size_, strains_);
   stressByUnknown_ = Eigen::MatrixXd::Zero(strains_, size_);
@@ -51,20 +53,10 @@ Network::Network(const Rve& cell, const Linearisation& what)
     stiffest_ = std::max(stiffest_, bond.normalStiffness);
     add(bond.i, bond.j, bond.branch, linearised(cell, bond, what));
   });
-  addMultipliers();
 }
 
 void Network::numberUnknowns() {
-  const Frame& frame = cell_.frame;
-  std::vector<int> leader(cell_.size());
-  for (std::size_t i = 0; i < leader.size(); ++i) leader[i] = static_cast<int>(i);
-  for (const std::vector<int>& group : frame.alike)
-    for (const int q : group)
-      if (frame.on[static_cast<std::size_t>(q)] == Condition::periodic)
-        leader[static_cast<std::size_t>(frame.grain[static_cast<std::size_t>(q)])] =
-            frame.grain[static_cast<std::size_t>(group.front())];
-  for (const int q : frame.those(Condition::displacement))
-    leader[static_cast<std::size_t>(frame.grain[static_cast<std::size_t>(q)])] = -1;
+  const std::vector<int>& leader = frame_.leader;
   node_.assign(cell_.size(), -1);
   for (std::size_t i = 0; i < leader.size(); ++i) {
     if (leader[i] < 0) continue;
@@ -72,12 +64,7 @@ void Network::numberUnknowns() {
     if (node < 0) node = nodes_++;
     node_[i] = node;
   }
-  std::vector<int> first{0};
-  for (int k = 0; k < nodes_; ++k) first.push_back(first.back() + perGrain_);
-  const bool multiplied = !frame.those(Condition::traction).empty();
-  if (multiplied) first.push_back(first.back() + 4);
-  size_ = first.back();
-  matrix_.emplace(std::move(first), multiplied ? nodes_ : -1);
+  size_ = nodes_ * perGrain_ + static_cast<int>(frame_.rows.size());
 }
 
 void Network::add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatrix m) {
@@ -101,7 +88,10 @@ void Network::add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatri
     }
   if (count == 0) return;
   const auto n = static_cast<Eigen::Index>(count);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12> forces(n, n);
+  const int a = node_[i], b = node_[j];
+  parts_.push_back({a < 0 ? b : a, a < 0 ? -1 : b, {}});
+  auto& forces = parts_.back().forces;
+  forces.resize(n, n);
   for (std::size_t c = 0; c < count; ++c) {
     for (std::size_t r = 0; r < count; ++r)
       forces(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
@@ -109,54 +99,52 @@ void Network::add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatri
     forceByStrain_.row(at[c]) -= sign[c] * strained.col(follows[c]).transpose();
     stressByUnknown_.col(at[c]) += sign[c] * stressed.col(follows[c]);
   }
-  const int a = node_[i], b = node_[j];
-  matrix_->add(a < 0 ? b : a, a < 0 ? -1 : b, entries(forces));
 }
 
-void Network::addMultipliers() {
-  const Frame& frame = cell_.frame;
-  const std::vector<int> free = frame.those(Condition::traction);
-  if (free.empty()) return;
-  // In units of stiffness, for the sake of the pivots.
-  const double unit = stiffest_ / norm(frame.area[static_cast<std::size_t>(free.front())]);
-  Eigen::Matrix2d areas = Eigen::Matrix2d::Zero();
-  for (const int q : free) {
-    const auto place = static_cast<std::size_t>(q);
-    const Eigen::Vector2d area(frame.area[place].x, frame.area[place].y);
-    areas += area * area.transpose();
-    Eigen::MatrixXd part = Eigen::MatrixXd::Zero(perGrain_ + 4, perGrain_ + 4);
-    for (int k = 0; k < 2; ++k)
-      for (int n = 0; n < 2; ++n)
-        part(perGrain_ + 2 * k + n, k) = part(k, perGrain_ + 2 * k + n) = unit * frame.area[place][n];
-    matrix_->add(node_[static_cast<std::size_t>(frame.grain[place])], nodes_, entries(part));
+void Network::addMultipliers(linalg::MultifrontalLu& matrix) const {
+  const auto rows = static_cast<Eigen::Index>(frame_.rows.size());
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const FrameRow& row = frame_.rows[static_cast<std::size_t>(r)];
+    for (const auto& [grain, coefficients] : row) {
+      // In units of stiffness, for the sake of the pivots.
+      Eigen::MatrixXd part = Eigen::MatrixXd::Zero(perGrain_ + rows, perGrain_ + rows);
+      for (int k = 0; k < perGrain_; ++k) part(perGrain_ + r, k) = part(k, perGrain_ + r) = stiffest_ * coefficients[k];
+      // What is held may be stiff too: a grain that nothing else holds is no small pivot then.
+      if (row.size() == 1) part.topLeftCorner<3, 3>() = -stiffest_ * coefficients * coefficients.transpose();
+      matrix.add(node_[static_cast<std::size_t>(grain)], nodes_, entries(part));
+    }
   }
-  // Of areas that are all parallel, half of the multipliers have nothing to do, and stay 0.
-  const Eigen::Matrix2d idle = Eigen::Matrix2d::Identity() - areas * inverseOfAreas(areas);
-  if (idle.norm() < 0.5) return;
-  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(4, 4);
-  held.topLeftCorner<2, 2>() = held.bottomRightCorner<2, 2>() = stiffest_ * idle;
-  matrix_->add(nodes_, -1, entries(held));
 }
 
 void Network::factor() {
-  if (factored_) return;
+  if (factors_) return;
+  std::vector<int> first{0};
+  for (int k = 0; k < nodes_; ++k) first.push_back(first.back() + perGrain_);
+  const int rows = static_cast<int>(frame_.rows.size());
+  if (rows > 0) first.push_back(first.back() + rows);
+  linalg::MultifrontalLu matrix(std::move(first), rows > 0 ? nodes_ : -1);
+  for (const Part& part : parts_) matrix.add(part.a, part.b, entries(part.forces));
+  addMultipliers(matrix);
   // Grains that touch nobody, and motions that nothing resists, stay where they are.
-  const double slight = 1e-10 * stiffest_, r = 0.5 * meanDiameter(cell_);
-  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(perGrain_, perGrain_);
-  for (int k = 0; k < perGrain_; ++k) held(k, k) = componentOf(k) < 3 ? -slight : -slight * r * r;
-  for (const int node : node_)
-    if (node >= 0) matrix_->add(node, -1, entries(held));
-  if (!matrix_->factor()) failSingular();
-  factored_ = true;
+  const double held = slight * stiffest_, r = 0.5 * meanDiameter(cell_);
+  Eigen::MatrixXd part = Eigen::MatrixXd::Zero(perGrain_, perGrain_);
+  for (int k = 0; k < perGrain_; ++k) part(k, k) = componentOf(k) < 3 ? -held : -held * r * r;
+  for (int node = 0; node < nodes_; ++node) matrix.add(node, -1, entries(part));
+  if (!matrix.factor()) failSingular();
+  factors_ = std::move(matrix);
 }
 
 Eigen::MatrixXd Network::solved(Eigen::MatrixXd b) {
   factor();
-  if (!matrix_->solve(entries(b), static_cast<int>(b.cols()))) failSingular();
+  if (!factors_->solve(entries(b), static_cast<int>(b.cols()))) failSingular();
   return b;
 }
 
-Eigen::MatrixXd Network::relaxedStressByStrain() { return stressByStrain_ - stressByUnknown_ * solved(forceByStrain_); }
+Eigen::MatrixXd Network::relaxedStressByStrain() {
+  if (cell_.shape == Shape::sphere)
+    if (const std::optional<Eigen::MatrixXd> found = relaxedByGradients()) return *found;
+  return stressByStrain_ - stressByUnknown_ * solved(forceByStrain_);
+}
 
 void Network::solve(Components& w, Components& theta) {
   Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(size_, 1);

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "motion/polar.hpp"
 #include "network.hpp"
 
 namespace dovetail::rve {
@@ -102,14 +103,31 @@ Tangent numericalTangent(const Rve& committed, const Eigen::Matrix3d& F, const N
   });
 }
 
+namespace {
+
+/// Components i and k of ∂P_iJ/∂F_kL, turned.
+Tangent turned(const Tangent& tangent, const Eigen::Matrix3d& by) {
+  Tangent T = Tangent::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) T.block<3, 3>(3 * i, 3 * k).diagonal().setConstant(by(i, k));
+  return T * tangent * T.transpose();
+}
+
+}  // namespace
+
+Tangent AveragedTangent::at(const Eigen::Matrix3d& nowF) const { return turned(mean, polar(nowF).turn); }
+
 Tangent AveragedTangent::next(const Eigen::Matrix3d& nowF, const Eigen::Matrix3d& nowP,
                               const std::function<Tangent()>& probe) {
-  if (count > 0 && nowF != F && (nowP - P).cwiseProduct(nowF - F).sum() <= 0.0) frozen = true;
-  if (frozen) return mean;
+  if (count > 0 && nowF != F) {
+    const Eigen::Matrix3d back = polar(nowF * F.inverse()).turn.transpose();
+    frozen = frozen || (back * nowP - P).cwiseProduct(back * nowF - F).sum() <= 0.0;
+  }
+  if (frozen) return at(nowF);
   F = nowF;
   P = nowP;
   const Tangent now = probe();
-  mean += (now - mean) / ++count;
+  mean += (turned(now, polar(F).turn.transpose()) - mean) / ++count;
   return now;
 }
 

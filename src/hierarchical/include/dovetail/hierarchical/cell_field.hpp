@@ -15,7 +15,8 @@ namespace dovetail::hierarchical {
 
 /// ∂P/∂F of cells for Newton's method (rve/operators.hpp).
 enum class Operator {
-  elasticTangent,     ///< converges fast while little slips; a factorisation of each cell, about an answer's price
+  elasticTangent,     ///< converges fast while little slips; about an answer's price of discs, of spheres 3 to 10 as
+                      ///< compress() leaves them, and tens where sheared packings must be factorised
   frictionalTangent,  ///< the same for continued loading
   voigtTangent,       ///< stiffer, without solving: more iterations, each cheaper
   elasticProbe,       ///< a check of `elasticTangent`, many times its price
@@ -58,7 +59,8 @@ std::optional<rve::Rve> committedCell(const fem::PointField& field, std::size_t 
 /// rest, or no grains touch there
 void relax(rve::Rve& cell, const Eigen::Matrix3d& F, const QuasiStaticCells& settings);
 
-/// From the present deformation to F, in as many steps as strainPerStep requires, at least one.
+/// From the present deformation to F along an rve::DeformationPath, in as many steps as strainPerStep requires, at
+/// least one.
 /// @throws InputError for F with det F ≤ 0 or, for discs, out of the plane, or if a setting is not valid;
 ///   NumericalError as rve::step, or if a million steps are not enough
 void stepTo(rve::Rve& cell, const Eigen::Matrix3d& F, const DynamicCells& settings);

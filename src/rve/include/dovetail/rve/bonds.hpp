@@ -21,6 +21,9 @@ struct BondLaw {
   friend bool operator==(const BondLaw&, const BondLaw&) = default;
 };
 
+/// @throws InputError unless k_n > 0, k_s and k_θ ≥ 0, all finite, and strengths > 0
+void validate(const BondLaw& law);
+
 /// Of a contact that is bonded.
 struct Bond {
   double length = 0.0;    ///< of the branch where the bond neither presses nor pulls, m; 0: not bonded

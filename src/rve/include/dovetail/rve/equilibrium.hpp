@@ -18,9 +18,9 @@ RestReport relax(Rve& cell, const RestCriterion& rest = {}, double stepFraction 
 RestReport polish(Rve& cell, double tolerance = 1e-10, int iterations = 10);
 
 struct PathOptions {
-  /// I of the path, in (0, 1e-2]: its duration is γ d / (I √(p/ρ)), with γ the difference of the principal strains (or
-  /// the largest of them, if that is more), d the mean diameter and p the pressure at the start, at least 1e-6 of mean
-  /// k_n/d (spheres) or k_n over thickness (discs) (Desrues et al. 2019, eqs 3, 16–18).
+  /// I of the path, in (0, 1e-2]: its duration is γ d / (I √(p/ρ)), with γ the difference of the principal strains
+  /// (DeformationPath::strains; or the largest of them, if that is more), d the mean diameter and p the pressure at the
+  /// start, at least 1e-6 of mean k_n/d (spheres) or k_n over thickness (discs) (Desrues et al. 2019, eqs 3, 16–18).
   double inertialNumber = 1e-3;
   double damping = 0.7;  ///< as in step, in [0, 1)
   double stepFraction = 0.8;
@@ -33,8 +33,10 @@ struct PathReport {
   RestReport rest;
 };
 
-/// Goes from the present deformation to F in proportion to time, then relaxes.
-/// @throws InputError if F is more than 5 % of strain away, does not fit discs, det F ≤ 0, or a setting is not valid
+/// Goes from the present deformation to F along a DeformationPath in proportion to time, then relaxes. A turn takes no
+/// time and strains nothing.
+/// @throws InputError if F is more than 5 % of strain away (DeformationPath::strain), does not fit discs, det F ≤ 0, or
+/// a setting is not valid
 PathReport followPath(Rve& cell, const Eigen::Matrix3d& F, const PathOptions& settings = {});
 
 struct CompressionOptions {

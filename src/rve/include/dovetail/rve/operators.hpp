@@ -47,14 +47,17 @@ struct NumericalTangentOptions {
 Tangent numericalTangent(const Rve& committed, const Eigen::Matrix3d& F, const NumericalTangentOptions& settings = {});
 
 /// Operators of a cell as long as it hardens, and from its first softening step on, for good, the mean of those so far
-/// (AEO; Desrues et al. 2019, sec. 2.5, with numericalTangent). A step ΔF, ΔP softens if ΔP : ΔF ≤ 0 (Hill).
+/// (AEO; Desrues et al. 2019, sec. 2.5, with numericalTangent). A step ΔF, ΔP softens if ΔP : ΔF ≤ 0 (Hill), the turn
+/// of the step taken out; operators turn with the cell.
 struct AveragedTangent {
   Eigen::Matrix3d F = Eigen::Matrix3d::Zero();  ///< committed last while the cell hardened
   Eigen::Matrix3d P = Eigen::Matrix3d::Zero();  ///< there, Pa
-  Tangent mean = Tangent::Zero();
-  int count = 0;  ///< of operators that the mean is of
+  Tangent mean = Tangent::Zero();               ///< as it is without the turn R of F = R U
+  int count = 0;                                ///< of operators that the mean is of
   bool frozen = false;
 
+  /// The mean, turned as a cell is at F.
+  Tangent at(const Eigen::Matrix3d& nowF) const;
   /// The operator to go on with from a committed state, P in Pa; `probe` is called as long as the cell hardens.
   Tangent next(const Eigen::Matrix3d& nowF, const Eigen::Matrix3d& nowP, const std::function<Tangent()>& probe);
 };

@@ -51,8 +51,8 @@ struct CellState {
   geometry::Lattice lattice;                        ///< H, m
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity();  ///< since the cell was made
   Components x;                                     ///< centres, m
-  Components v;                                     ///< m/s, fluctuations: ẋ = L x + v
-  Components spin;                                  ///< rad/s, fluctuations: on top of the spin of L
+  Components v;                                     ///< m/s, fluctuations: ẋ = L x + v; turn with the cell
+  Components spin;                                  ///< rad/s, fluctuations: on top of the cell's turn
   Components force, torque;                         ///< N, N m: by contacts, on each grain
   Contacts contacts;
   Springs springs;                                   ///< that the contacts were made with
@@ -111,16 +111,17 @@ void restore(Rve& cell, const CellState& kept);
 /// friction. @throws InputError as validate, or if the springs do not go with the shape
 void setSprings(Rve& cell, const Springs& springs);
 
-/// A step of length dt: fluctuations are kicked by the forces, less damping (Cundall's: of each force the fraction
-/// `damping` against the velocity, of fluctuations only), then all moves: x ← G (x + v dt), H ← G H, F ← G F.
-/// Symplectic Euler; m dv/dt = f, which leaves the inertia of L x out (Desrues et al. 2019, eq. 15 at rest).
+/// A step of length dt: fluctuations are kicked by the forces, less damping (as Cundall's, along the motion in place of
+/// the axes: the fraction `damping` of the size of a grain's force, and torque, against its fluctuation), then all
+/// moves: x ← G (x + v dt), H ← G H, F ← G F. With G = R U, a turn after a stretch, all that has a direction turns by
+/// R, any angle, and U strains. Symplectic Euler; m dv/dt = f along axes that turn with the cell, which leaves the
+/// inertia of L x out (Desrues et al. 2019, eq. 15 at rest).
 /// @throws InputError if dt is not above 0 or is above criticalStep, or damping is not in [0, 1); NumericalError if
-///   det G ≤ 0, G is nearly half a turn, faces have come too close, or a velocity or force is not finite, naming the
-///   grain
+///   det G ≤ 0, faces have come too close, or a velocity or force is not finite, naming the grain
 void step(Rve& cell, double dt, const Eigen::Matrix3d& G = Eigen::Matrix3d::Identity(), double damping = 0.0);
 
-/// Deforms the cell by G, grains and all; no time passes, velocities stay. Every contact feels it as one step of its
-/// own, so springs stretch and slip. @throws as step
+/// Deforms the cell by G, grains and all; no time passes, velocities turn with it and stay otherwise. Every contact
+/// feels it as one step of its own, so springs stretch and slip. @throws as step
 void deform(Rve& cell, const Eigen::Matrix3d& G);
 
 /// F times the inverse of the present one: what deforms the cell to F. Of discs, what is out of the plane is exactly 1

@@ -14,15 +14,18 @@ namespace dovetail::rve {
 void writeState(const Rve& cell, const CellState& state, ByteWriter& archive);
 
 /// Reads one back; a cell that gets it goes on with the same digits.
-/// @throws InputError if it was written for other grains or springs, or does not hold together. Numbers that have
-///   changed to others that might be are for a checksum to find, as files of states have (writeSamples, writeChecked)
+/// @throws InputError if it was written for other grains or springs, or naming the grain or contact of which a number
+/// is
+///   one that no cell has. Numbers that have changed to others that might be are for a checksum to find, as files of
+///   states have (writeSamples, writeChecked)
 CellState readState(const Rve& cell, ByteReader& archive);
 
 /// Writes cells to a file with a checksum, for programs that share them.
 /// @throws InputError for framed cells (cut them after reading), or if the file cannot be written there
 void writeSamples(const std::filesystem::path& path, std::span<const Rve> cells);
 
-/// @throws InputError if the file cannot be read, is of another kind, or has changed since it was written
+/// @throws InputError if the file cannot be read, is of another kind, or has changed since it was written; naming the
+///   cell, and its grain or contact, of which a number is one that no cell has
 std::vector<Rve> readSamples(const std::filesystem::path& path);
 
 }  // namespace dovetail::rve
