@@ -95,6 +95,8 @@ PICTURES = (
             draw="--azimuth 0 --elevation 0", lines=('"stages"',)),
     Picture("plucked", "The tip, which its support has let go, swings: 6 mm down in its second period.", frame=0.6,
             draw="--warp 5 --solids displacement", lines=('"stages"',)),
+    Picture("shear-band", "The shear has gathered in a band from the weak spot on the left; its width is that of the gradient.",
+            draw="--azimuth 0 --elevation 90 --solids plastic_strain", lines=('"gradient"', '"material"', '"supports"')),
     Picture("frequencies", "The third mode of a cantilever, the second about its softer axis: one place along it stands still.",
             draw="--mode 3", lines=('"stages"',)),
 )

@@ -28,8 +28,14 @@ auto make(const J2Plastic& law, double density) {
                                               law.kinematicModulus, law.recovery});
 }
 auto make(const DruckerPrager& law, double density) {
-  return fem::pointMaterial(fem::DruckerPrager{law.youngsModulus, law.poissonRatio, density, law.cohesion,
-                                               law.frictionAngle, law.dilatancyAngle});
+  fem::DruckerPrager made{law.youngsModulus, law.poissonRatio,  density,
+                          law.cohesion,      law.frictionAngle, law.dilatancyAngle};
+  if (law.cohesionCurve.empty()) return fem::pointMaterial(made);
+  std::vector<std::pair<double, double>> points{{0.0, law.cohesion}};
+  for (const CohesionPoint& point : law.cohesionCurve) points.emplace_back(point.plasticStrain, point.cohesion);
+  made.cohesion = 0.0;
+  made.cohesionCurve = fem::tabulatedYield(points);
+  return fem::pointMaterial(made);
 }
 auto make(const AxialSprings& law, double density) {
   return fem::pointMaterial(fem::AxialSprings{law.youngsModulus, density});

@@ -7,6 +7,7 @@
 #include "changes.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/terms/gradient_energy.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/io/names.hpp"
 #include "from_state.hpp"
@@ -112,6 +113,19 @@ void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, co
                      "leave the largest region out, and give the solid its material");
 }
 
+/// The energy of the gradient of F in all elements.
+void addGradient(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
+  const bool allPoints = solid.formulation != "reduced" && std::ranges::any_of(mesh.groups, [](const auto& group) {
+                           return group.shape == fem::ElementShape::quad8;
+                         });
+  if (allPoints)
+    throw InputError("the gradient of quad8 is taken at 2 x 2 points, the elements have 3 x 3", "gradient",
+                     "write \"formulation\": \"reduced\"");
+  fem::GradientOptions options{.modulus = solid.gradient->modulus};
+  if (overlap) options.fraction = arlequin::solidWeights(overlapWeights(*overlap, mesh));
+  model.add(fem::gradientEnergy(mesh, options));
+}
+
 /// Whether the weights of the elements rest on nodes otherwise than lumped masses do.
 bool weighUnevenly(const fem::Nodes& nodes) {
   double all = 0.0, apart = 0.0;
@@ -157,6 +171,7 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   fem::SolidMesh& mesh = built.meshes.back();
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap, built, takesLoadStepsAlone(scene));
+  if (solid.gradient) addGradient(*model, mesh, solid, overlap);
   if (solid.gravity && changesGravity(scene))
     model->add(fem::gravity([now = built.changing.gravity](double) { return *now; }));
   else if (solid.gravity && norm(scene.gravity) > 0.0)

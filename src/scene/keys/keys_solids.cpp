@@ -54,10 +54,18 @@ void describe(Fields& f, J2Plastic& v) {
       {"recovery", "of the back stress, which saturates at kinematic_modulus/recovery (Armstrong & Frederick 1966)"},
       v.recovery, notNegative(unit::none));
 }
+void describe(Fields& f, CohesionPoint& v) {
+  f.number({"plastic_strain", "accumulated, in shear gamma/sqrt(3); above that of the point before"}, v.plasticStrain,
+           positive(unit::none));
+  f.number({"cohesion", "there"}, v.cohesion, positive(unit::pressure));
+}
 void describe(Fields& f, DruckerPrager& v) {
   young(f, v.youngsModulus);
   poisson(f, v.poissonRatio);
   f.number({"cohesion", "shear strength without pressure"}, v.cohesion, notNegative(unit::pressure));
+  f.list({"cohesion_curve",
+          "further points, straight between them and level behind the last; where it falls, give the solid a gradient"},
+         v.cohesionCurve);
   f.number({"friction_angle", "below 90 deg"}, v.frictionAngle, {unit::angle, 0.0, 1.5, false, false});
   f.number({"dilatancy_angle", "not above the friction angle"}, v.dilatancyAngle, {unit::angle, 0.0, 1.5});
 }
@@ -185,6 +193,12 @@ void describe(Fields& f, SolidPlane& v) {
                  v.stiffness, positive(unit::pressurePerLength), automatic);
   f.number({"friction", "Coulomb's coefficient"}, v.friction, notNegative(unit::none));
 }
+void describe(Fields& f, SolidGradient& v) {
+  f.number({"modulus",
+            "D: a layer whose shear stress falls by H per shear strain has a band of 2*sqrt(D/H)*(pi - "
+            "atan(sqrt(H/G)))"},
+           v.modulus, positive(unit::force));
+}
 void describe(Fields& f, StateOfSolid& v) {
   f.file({"file",
           "checkpoint with a solid of this name and the same mesh, material and formulation: initial displacements, "
@@ -206,6 +220,10 @@ void describe(Fields& f, Solid& v) {
   f.object({"material", "of the solid"}, v.material);
   f.list({"regions", "elements of other materials"}, v.regions);
   f.word({"formulation", "of the elements"}, v.formulation, formulations);
+  f.object({"gradient",
+            "energy of the gradient of F, which gives bands of softening materials a width; for quad4, reduced quad8 "
+            "and hex8"},
+           v.gradient);
   f.flag({"gravity", "whether gravity acts on it"}, v.gravity);
   f.choice({"stepping", "time integration"}, v.implicitSteps, steppings);
   f.choice({"linear_solver",

@@ -293,6 +293,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene, bool s
     const Solid& solid = scene.solids[s];
     lookAtMesh(built.meshes[s], solid, lines);
     lookAtThickness(built, scene, s, lines);
+    lookAtBands(built, scene, s, lines);
     lookAtSets(scene, solid, lines);
     bool overlaps = false;
     for (const Coupling& coupling : scene.couplings) {

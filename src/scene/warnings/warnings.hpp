@@ -23,6 +23,8 @@ Lines onePerKind(const Lines& lines);
 void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, const Overlap& overlap, Lines& lines);
 /// Layers across thin parts of a solid, by its number, that bend otherwise than the material does.
 void lookAtThickness(const Built& built, const Scene& scene, std::size_t number, Lines& lines);
+/// Bands of a softening solid, by its number, that are too narrow for its elements or lock in them.
+void lookAtBands(const Built& built, const Scene& scene, std::size_t number, Lines& lines);
 /// Moduli, densities, sizes and steps that do not go with each other.
 void lookAtRelations(const Built& built, const Scene& scene, Lines& lines);
 /// Probes, insertions, solids, walls and paths that are not where the others are.

@@ -36,8 +36,13 @@ struct J2Plastic {
   std::vector<YieldPoint> hardeningCurve;         ///< in place of `hardening`, behind the initial yield stress
   double kinematicModulus = 0.0, recovery = 0.0;  ///< Pa, 1: of the back stress, see fem::J2Plasticity
 };
+/// A point of a cohesion curve.
+struct CohesionPoint {
+  double plasticStrain = required, cohesion = required;  ///< accumulated; Pa
+};
 struct DruckerPrager {
   double youngsModulus = required, poissonRatio = required, cohesion = required;
+  std::vector<CohesionPoint> cohesionCurve;               ///< behind the initial cohesion
   double frictionAngle = required, dilatancyAngle = 0.0;  ///< rad
 };
 /// As a cubic lattice of springs, see fem::AxialSprings.
@@ -145,6 +150,10 @@ struct SolidPlane {
   double friction = 0.0;
   std::string where;
 };
+/// Energy of the gradient of F, see fem::gradientEnergy.
+struct SolidGradient {
+  double modulus = required;  ///< N
+};
 /// Displacements, velocities and plastic flow of the solid of that name in another run's checkpoint.
 struct StateOfSolid {
   std::string file;
@@ -155,6 +164,7 @@ struct Solid {
   SolidMaterial material;  ///< of all elements but those of the regions
   std::vector<MaterialRegion> regions;
   std::string formulation = "standard";
+  std::optional<SolidGradient> gradient;  ///< not given: bands of softening materials are as wide as elements
   bool gravity = true;
   bool implicitSteps = false;
   int linearSolver = 0;                ///< linalg::LinearMethod, of implicit steps
