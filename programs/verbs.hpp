@@ -19,7 +19,8 @@ bool upgradeScene(int argc, char** argv);
 bool writeSchema(int argc, char** argv);
 bool compareRuns(int argc, char** argv);  ///< false if the two differ by more than the tolerance
 bool writeFields(int argc, char** argv);
-bool calibrate(int argc, char** argv);  ///< refused where the build has no Ceres
+bool calibrate(int argc, char** argv);    ///< refused where the build has no Ceres
+bool testCellsOf(int argc, char** argv);  ///< false if a cell breaks down in a test
 bool studyScene(int argc, char** argv);
 bool drawRun(int argc, char** argv);
 bool reportRun(int argc, char** argv);
@@ -36,6 +37,7 @@ inline constexpr Verb verbs[] = {
     {"fields", "density, velocity, stress … of a run's last checkpoint on a grid, as a VTI file", writeFields},
     {"calibrate", "continuum of a packing, grain parameters from measurements, or the best widths and lengths",
      calibrate},
+    {"cell", "makes cells of grains and tests them: moduli, strength, curves", testCellsOf},
     {"study", "runs a scene over lists of parameters, in several processes", studyScene},
     {"picture", "draws a frame of a run, or all of them as a film", drawRun},
     {"report", "writes a page (HTML, Markdown) on a run", reportRun},

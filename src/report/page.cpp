@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/provenance.hpp"
 #include "map_text.hpp"
 
 namespace dovetail::report {
@@ -203,5 +205,21 @@ std::vector<const Kind*> blocksOf(const Page& page) {
 
 std::vector<const Figure*> figuresOf(const Page& page) { return blocksOf<Figure>(page); }
 std::vector<const Photo*> photosOf(const Page& page) { return blocksOf<Photo>(page); }
+
+std::filesystem::path writePage(const std::filesystem::path& folder, const Page& page) {
+  const std::string mark = "dovetail " + io::buildInfo().version;
+  const auto figureFile = [&](const Figure& figure) { return folder / ("report_" + figure.name + ".svg"); };
+  for (const char* const name : {"report.md", "report.html"}) io::requireFreeOrOurs(folder / name);
+  for (const Figure* const figure : figuresOf(page)) io::requireFreeOrOurs(figureFile(*figure));
+  const auto photoFile = [&](const Photo& one) { return folder / ("report_" + one.name + ".png"); };
+  for (const Photo* const one : photosOf(page)) io::requireFreeOrOurs(photoFile(*one));
+  io::removeReport(folder);
+  io::writeFileAtomically(folder / "report.html", htmlOf(page, mark));
+  io::writeFileAtomically(folder / "report.md", "<!-- " + mark + " -->\n\n" + markdownOf(page, "report_"));
+  for (const Figure* const figure : figuresOf(page))
+    io::writeFileAtomically(figureFile(*figure), "<!-- " + mark + " -->\n" + svgFileOf(*figure));
+  for (const Photo* const one : photosOf(page)) io::writeFileAtomically(photoFile(*one), one->png);
+  return folder / "report.html";
+}
 
 }  // namespace dovetail::report

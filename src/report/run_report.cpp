@@ -276,20 +276,7 @@ Page pageOf(const RunRecord& record, const Photo& photo) {
 }
 
 std::filesystem::path writeRunReport(const std::filesystem::path& folder, const Photo& photo) {
-  const Page page = pageOf(readRunFolder(folder), photo);
-  const std::string mark = "dovetail " + io::buildInfo().version;
-  const auto figureFile = [&](const Figure& figure) { return folder / ("report_" + figure.name + ".svg"); };
-  for (const char* const name : {"report.md", "report.html"}) io::requireFreeOrOurs(folder / name);
-  for (const Figure* const figure : figuresOf(page)) io::requireFreeOrOurs(figureFile(*figure));
-  const auto photoFile = [&](const Photo& one) { return folder / ("report_" + one.name + ".png"); };
-  for (const Photo* const one : photosOf(page)) io::requireFreeOrOurs(photoFile(*one));
-  io::removeReport(folder);
-  io::writeFileAtomically(folder / "report.html", htmlOf(page, mark));
-  io::writeFileAtomically(folder / "report.md", "<!-- " + mark + " -->\n\n" + markdownOf(page, "report_"));
-  for (const Figure* const figure : figuresOf(page))
-    io::writeFileAtomically(figureFile(*figure), "<!-- " + mark + " -->\n" + svgFileOf(*figure));
-  for (const Photo* const one : photosOf(page)) io::writeFileAtomically(photoFile(*one), one->png);
-  return folder / "report.html";
+  return writePage(folder, pageOf(readRunFolder(folder), photo));
 }
 
 }  // namespace dovetail::report

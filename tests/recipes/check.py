@@ -35,6 +35,27 @@ class Run:
         return t[i - 1] + (level - values[i - 1]) / (values[i] - values[i - 1]) * (t[i] - t[i - 1])
 
 
+class Cells:
+    """What dovetail cell has written about cells and tests, and the mean curves of the tests."""
+
+    def __init__(self, program, file, folder, changes=()):
+        command = [program, "cell", str(file), "--out", str(folder)]
+        for change in changes:
+            command += ["--set", change]
+        said = subprocess.run(command, capture_output=True, text=True)
+        if said.returncode != 0:
+            sys.exit(f"{file}: exit status {said.returncode}\n{said.stdout}\n{said.stderr}")
+        self.folder = folder
+        self.found = json.loads((folder / "cells.json").read_text())
+
+    def of_test(self, name, number):
+        return self.found["tests"][name][number]["mean"]
+
+    def curve(self, name):
+        with open(self.folder / f"{name}.csv") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
 failures = []
 
 
@@ -153,11 +174,36 @@ def conveyor(run):
     compare("work of the belt", -r.last("particles_work_of_walls_and_drives_minus_J"), mass * v * v, 5e-3)
 
 
+def cells(r):
+    def mean(values):
+        return sum(values) / len(values)
+
+    sand = r.found["cells"]["sand"]
+    diameter, k, ratio = 1e-2, 2e5, 0.5
+    dense = mean(sand["contacts per grain"]) * mean(sand["solid fraction"]) * 1e-6 * k / (math.pi * diameter)
+    compare("K of uniform strain", mean(sand["K of the Voigt tangent, MPa"]), dense / 3, 0.02)
+    compare("G of uniform strain", mean(sand["G of the Voigt tangent, MPa"]), dense * (1 + 1.5 * ratio) / 5, 0.03)
+    at = min(range(len(sand["secants"][0]["strain"])), key=lambda i: abs(sand["secants"][0]["strain"][i] - 3e-4))
+    bulk, shear = (mean([one[name][at] for one in sand["secants"]]) for name in ("bulk_Pa", "shear_Pa"))
+    before, after = r.curve("oedometer")[:2]
+    more = {axis: float(before[f"sigma_{axis}_Pa"]) - float(after[f"sigma_{axis}_Pa"]) for axis in ("xx", "yy", "zz")}
+    confined = bulk + 4 * shear / 3
+    compare("oedometer, modulus of the first step", more["zz"] / float(after["strain"]), confined, 0.04)
+    at_rest = (bulk - 2 * shear / 3) / confined
+    compare("oedometer, side over axial pressure of the first step", (more["xx"] + more["yy"]) / 2 / more["zz"], at_rest, 0.08)
+    sine = math.sin(math.radians(r.of_test("triaxial", "dilatancy angle")))
+    largest = r.of_test("triaxial", "friction angle, last quarter") + 10 * 2 * sine / (1 - sine)
+    compare("friction angle, largest", r.of_test("triaxial", "friction angle, largest"), largest, 0.08)
+
+
 def main():
     name, program, scenes, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3]), pathlib.Path(sys.argv[4])
     folder.mkdir(parents=True, exist_ok=True)
     runs = iter(range(100))
-    globals()[name](lambda scene, *changes: Run(program, scenes / scene, folder / str(next(runs)), changes))
+    if name == "cells":
+        cells(Cells(program, scenes / "cells.json", folder / "0", ["number=2"]))
+    else:
+        globals()[name](lambda scene, *changes: Run(program, scenes / scene, folder / str(next(runs)), changes))
     if failures:
         sys.exit("beyond the band: " + ", ".join(failures))
 

@@ -17,10 +17,10 @@ struct Servo {
   double inertialNumber = 1e-2;  ///< of the fastest strain
   double tolerance = 1e-3;       ///< of the stresses, relative
   double damping = 0.7, stepFraction = 0.8;
-  std::optional<RestCriterion> rest;  ///< none: the cell is left in motion
-  std::int64_t quiet = 200;           ///< steps for which stresses are to be within half the tolerance
-  std::int64_t steps = 1000000;       ///< given up after so many
-  const char* where = "servo";        ///< for messages
+  std::optional<RestCriterion> rest = {};  ///< none: the cell is left in motion
+  std::int64_t quiet = 200;                ///< steps for which stresses are to be within half the tolerance
+  std::int64_t steps = 1000000;            ///< given up after so many
+  const char* where = "servo";             ///< for messages
 };
 
 /// Largest relative distance of the stresses from those that are held; of such as should be 0 over the largest of them,

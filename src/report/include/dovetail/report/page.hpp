@@ -1,6 +1,7 @@
 // Pages of text, tables and figures, as HTML and Markdown.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <variant>
 #include <vector>
@@ -63,6 +64,11 @@ std::string htmlOf(const Page& page, const std::string& mark);
 std::string markdownOf(const Page& page, const std::string& figureFile);
 /// A table alone.
 std::string markdownOf(const Table& table);
+
+/// Writes report.html, which needs no other file, and report.md with a file report_<name>.svg per figure into a folder,
+/// in place of an earlier report of ours.
+/// @return the HTML file. @throws InputError if a name is taken by a file that is not ours
+std::filesystem::path writePage(const std::filesystem::path& folder, const Page& page);
 
 /// All figures of the page in their order.
 std::vector<const Figure*> figuresOf(const Page& page);

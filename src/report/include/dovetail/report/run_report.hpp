@@ -13,8 +13,7 @@ namespace dovetail::report {
 /// @param photo  of the run, first on the page; without bytes there is none
 Page pageOf(const RunRecord& record, const Photo& photo = {});
 
-/// Writes report.html, which needs no other file, and report.md with a file report_<name>.svg per figure into the
-/// folder of the run.
+/// Writes the report into the folder of the run, as writePage.
 /// @return the HTML file. @throws InputError as readRunFolder, or if a name is taken by a file that is not from a run
 std::filesystem::path writeRunReport(const std::filesystem::path& folder, const Photo& photo = {});
 

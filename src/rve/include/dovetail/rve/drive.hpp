@@ -45,8 +45,8 @@ struct DriveOptions {
   double damping = 0.1;          ///< as in step, in [0, 1)
   double tolerance = 1e-3;       ///< of the stresses held, relative, at the strains looked at; > 0
   double stepFraction = 0.8;
-  std::optional<RestCriterion> rest;  ///< at the strains looked at; none: they are looked at in motion
-  std::int64_t steps = 20000000;      ///< given up after so many
+  std::optional<RestCriterion> rest = {};  ///< at the strains looked at; none: they are looked at in motion
+  std::int64_t steps = 20000000;           ///< given up after so many
 };
 
 /// A cell at one strain of a test.
