@@ -46,16 +46,17 @@ constexpr FigureKind figureKinds[] = {
     {"G of the Voigt tangent, MPa", 1e-6, [](const CellFigures& f) { return f.voigt.shear; }},
 };
 
-std::vector<double> valuesOf(const CellBank& bank, const std::function<double(const CellFigures&)>& value) {
+std::vector<double> valuesOf(const CellBank& bank, const std::function<double(const CellFigures&)>& value,
+                             double scale = 1.0) {
   std::vector<double> values;
-  for (const CellFigures& one : bank.figures) values.push_back(value(one));
+  for (const CellFigures& one : bank.figures) values.push_back(scale * value(one));
   return values;
 }
 
 report::Table tableOf(const CellBank& bank) {
   report::Table table{{"before any test", format("mean of %zu", bank.cells.size())}, {}};
   for (const FigureKind& kind : figureKinds)
-    table.rows.push_back({kind.name, spread(valuesOf(bank, kind.value), kind.scale)});
+    table.rows.push_back({kind.name, spread(valuesOf(bank, kind.value, kind.scale))});
   return table;
 }
 
@@ -228,7 +229,7 @@ Json jsonOf(const CellPlan& plan, const CellResults& results) {
     one["grains"] = bank.cells.front().size();
     one["file"] = bank.file.filename().string();
     one["reused"] = bank.reused;
-    for (const FigureKind& kind : figureKinds) one[kind.name] = jsonOf(valuesOf(bank, kind.value));
+    for (const FigureKind& kind : figureKinds) one[kind.name] = jsonOf(valuesOf(bank, kind.value, kind.scale));
     for (const CellFigures& figures : bank.figures)
       if (plan.secants)
         one["secants"].push_back({{"strain", jsonOf(figures.secants.strain)},

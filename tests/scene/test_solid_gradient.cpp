@@ -112,7 +112,7 @@ TEST(SolidGradient, IsLoadedInStepsAndAlongItsPath) {
 }
 
 TEST(SolidGradient, SetsTheStepAndIsNamedForIt) {
-  const std::string stiff = R"("formulation": "reduced", "gradient": {"modulus": "100 MN"}, )";
+  const std::string stiff = R"("formulation": "reduced", "gradient": {"modulus": 1e12}, )";
   expectParts(refusalOfRun(sheet(stiff + pressed)), {"gradient of F", "soil"});
 }
 
