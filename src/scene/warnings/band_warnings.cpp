@@ -101,7 +101,8 @@ void lookAtBands(const Built& built, const Scene& scene, std::size_t number, Lin
                     " of its elements: take elements of " + rounded(width / elementsPerBand) +
                     " m or less, or a gradient modulus of " +
                     rounded(solid.gradient->modulus * std::pow(elementsPerBand * length / width, 2)) + " N.");
-  if ((ofCells || !std::isinf(fewest)) && locksInBands(solid, mesh))
+  const bool softens = !std::isinf(fewest) || (ofCells && (solid.gradient || fem::dimensionOf(mesh) == 2));
+  if (softens && locksInBands(solid, mesh))
     lines.push_back(quoted(solid.name) + " has " + fem::name(mesh.groups.front().shape) +
                     " of the standard formulation, which are too stiff in bands: take " +
                     (fem::dimensionOf(mesh) == 2 ? "quad8 with \"formulation\": \"reduced\"."
