@@ -33,7 +33,8 @@ void check(const Rve& cell, const Drive& how, std::span<const double> strains, c
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const bool held = !std::isnan(how.stress(i, j)), driven = how.rate(i, j) != 0.0;
-      const std::string name = "L" + std::to_string(i + 1) + std::to_string(j + 1);
+      std::string name = "L";
+      name.append(std::to_string(i + 1)).append(std::to_string(j + 1));
       if (!std::isfinite(how.rate(i, j)) || (held && !std::isfinite(how.stress(i, j))))
         throw InputError("rate or stress of " + name + " is not finite", where, "give finite numbers");
       if (held && driven) throw InputError(name + " has a rate and a stress", where, "give one of the two");
