@@ -121,6 +121,17 @@ TEST(SceneCells, WhatCannotBeIsRefused) {
   EXPECT_THROW(with(R"({"law": "cells", "cells": "sand", "density": 1000})", all, plane), InputError);
 }
 
+TEST(SceneCells, ThatNoSolidHasAreNotMade) {
+  const Built built = build(sceneFromText("{" + discs() +
+                                              R"("solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 1],
+      "box": [[0, 0, 0], [1, 1, 1]], "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3,
+      "density": 1000}}], )" + runs + "}",
+                                          "s.json", "/"));
+  EXPECT_TRUE(built.cells.at("sand").empty());
+  ASSERT_FALSE(built.notes.empty());
+  expectParts(built.notes.front(), {"WARNING", "No solid has the cells \"sand\"", "not made"});
+}
+
 TEST(SceneCells, DescriptionsAreChecked) {
   const auto refusal = [](const std::string& contact, const std::string& rest) {
     try {

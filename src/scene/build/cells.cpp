@@ -1,5 +1,6 @@
 // Cells of grains of a scene.
 #include <algorithm>
+#include <set>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -22,8 +23,9 @@ constexpr double bytesOfGrain = 1000.0;
 
 rve::Springs springsOf(const CellLinearContact& law, double friction) {
   if (law.modulus.has_value() == law.stiffness.has_value())
-    throw InputError(law.modulus ? "both a modulus and a stiffness are given" : "neither a modulus nor a stiffness is",
-                     "", "give one of them");
+    throw InputError(
+        law.modulus ? "both a modulus and a stiffness are given" : "neither a modulus nor a stiffness is given", "",
+        "give one of them");
   return {.modulus = law.modulus.value_or(0.0),
           .stiffness = law.stiffness.value_or(0.0),
           .tangential = law.stiffnessRatio,
@@ -91,10 +93,19 @@ std::vector<rve::Rve> makeCells(const Cells& cells) {
 }
 
 void addCells(Built& built, const Scene& scene) {
+  std::set<std::string> used;
+  for (const Solid& solid : scene.solids)
+    for (const SolidMaterial* const material : materialsOf(solid))
+      if (const auto* const law = std::get_if<GrainCells>(&material->law)) used.insert(law->cells);
   for (const Cells& cells : scene.cells) {
-    if (built.cells.contains(cells.name))
+    const auto [place, isNew] = built.cells.try_emplace(cells.name);
+    if (!isNew)
       throw InputError("two cells are named \"" + cells.name + "\"", cells.where, "give them different names");
-    built.cells[cells.name] = makeCells(cells);
+    if (used.contains(cells.name))
+      place->second = makeCells(cells);
+    else
+      built.notes.push_back("WARNING: No solid has the cells \"" + cells.name +
+                            "\", which were not made: leave them out, or name them in a material.");
   }
 }
 

@@ -136,7 +136,8 @@ std::string lineOn(const std::string& name, const std::vector<rve::Rve>& cells) 
 
 std::vector<std::string> linesOnCells(const Built& built) {
   std::vector<std::string> lines;
-  for (const auto& [name, cells] : built.cells) lines.push_back(lineOn(name, cells));
+  for (const auto& [name, cells] : built.cells)
+    if (!cells.empty()) lines.push_back(lineOn(name, cells));
   for (std::size_t s = 0; s < built.run->solids(); ++s) {
     std::size_t points = 0, grains = 0, bytes = 0;
     forEachCell(*built.run->solid(s).model, [&](int, const Vec3&, double, const rve::Rve& cell) {

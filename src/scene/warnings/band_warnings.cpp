@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "build/parts.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
@@ -87,8 +88,7 @@ void lookAtBands(const Built& built, const Scene& scene, std::size_t number, Lin
   const fem::SolidMesh& mesh = built.meshes[number];
   const std::vector<std::size_t> material = materialByElement(solid, mesh);
   const std::vector<const SolidMaterial*> materials = materialsOf(solid);
-  const bool ofCells = std::ranges::any_of(
-      materials, [](const SolidMaterial* one) { return std::holds_alternative<GrainCells>(one->law); });
+  const bool ofCells = std::ranges::any_of(materials, [](const SolidMaterial* one) { return hasCells(*one); });
   if (!solid.gradient && !ofCells) return;
   double fewest = std::numeric_limits<double>::infinity(), width = 0.0, length = 0.0;
   for (std::size_t m = 0; solid.gradient && m < materials.size(); ++m) {
