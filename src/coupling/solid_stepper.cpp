@@ -78,6 +78,8 @@ Momenta totalOf(const NodalLoad& load, const fem::Nodes& nodes) {
 void SolidStepper::copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const {
   using enum EnergyLedger::Kind;
   double supports = -side.supportWork - statics.supports;
+  for (const std::string& name : carriedOver_)
+    if (!own.find(name, booked)) ledger.set(side.name + ": " + name, booked, 0.0);
   for (const EnergyLedger::Channel& channel : own.channels()) {
     if (channel.name == "supports") supports += channel.joules;
     ledger.set(side.name + ": " + channel.name, channel.kind, channel.name == "kinetic" ? kinetic : channel.joules);

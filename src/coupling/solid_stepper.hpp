@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <set>
 #include <string>
 
 #include "dovetail/core/archive.hpp"
@@ -101,6 +102,8 @@ protected:
   void copyChannels(const EnergyLedger& own, double kinetic, EnergyLedger& ledger) const;
   void carryOver(const EnergyLedger& own) {
     bookedBefore += own.booked();
+    for (const EnergyLedger::Channel& channel : own.channels())
+      if (channel.kind == EnergyLedger::Kind::booked) carriedOver_.insert(channel.name);
     side.outside.add("", ownImpulses());
   }
 
@@ -108,6 +111,7 @@ protected:
   SolidOptions options_;
   double dt_ = 0.0;
   int K_ = 1;
+  std::set<std::string> carriedOver_;  ///< channels whose joules are in bookedBefore, and which may not come again
 };
 
 /// Sum of a load at the present places, N and N m.
