@@ -17,7 +17,7 @@ namespace {
 constexpr const char* where = "drive of a cell";
 constexpr double lag = 10.0;       // of the servo: cells whose grains touch answer at once
 constexpr double learning = 1e-2;  // of the strains that come with that of the test, per step
-constexpr double most = 4.0;       // of these, over that of the test
+constexpr double atMost = 4.0;     // of these, over that of the test
 
 void check(const Rve& cell, const Drive& how, std::span<const double> strains, const DriveOptions& settings) {
   if (!cell.frame.empty()) throw InputError("the cell has a frame", where, "give a periodic cell");
@@ -56,7 +56,7 @@ public:
     servo_ = {.stress = how.stress,
               .pressure = std::max(stress(cell).pressure, std::numeric_limits<double>::min()),
               .lag = lag,
-              .inertialNumber = most * settings.inertialNumber,
+              .inertialNumber = atMost * settings.inertialNumber,
               .tolerance = settings.tolerance,
               .damping = settings.damping,
               .stepFraction = settings.stepFraction,
@@ -91,7 +91,7 @@ private:
     Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
     if (how_.holds()) {
       const Eigen::Matrix3d given = servoStrain(cell_, servo_, dt);
-      if (ds != 0.0) accompanying_ = (accompanying_ + learning * given / ds).cwiseMin(most).cwiseMax(-most);
+      if (ds != 0.0) accompanying_ = (accompanying_ + learning * given / ds).cwiseMin(atMost).cwiseMax(-atMost);
       G += given + ds * accompanying_;
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) G(i, j) += i == j ? std::expm1(ds * how_.rate(i, i)) : ds * how_.rate(i, j);
