@@ -8,6 +8,7 @@
 #include "band_layer.hpp"
 #include "program/options.hpp"
 #include "program/run.hpp"
+#include "soft_sand.hpp"
 
 namespace {
 
@@ -28,16 +29,16 @@ void showLayer() {
     }
 }
 
-void showCourse(const SoftBiaxial& s) {
-  const BiaxialCourse course = pressTogether(s);
+void showCourse(const BandBiaxial& s) {
+  const BiaxialCourse course = pressTogether(s, {{softSand({})}});
   std::printf("| %s %d × %d%s | %g |", fem::name(s.shape), s.across, 2 * s.across, s.skew > 0.0 ? " skew" : "",
               s.modulus);
   for (std::size_t k = 0; k < static_cast<std::size_t>(std::lround(100.0 * s.end)); ++k)
-    k < course.axial.size() ? std::printf(" %.1f |", course.axial[k] / 1e3) : std::printf(" |");
+    k < course.looks.size() ? std::printf(" %.1f |", course.looks[k].axial / 1e3) : std::printf(" |");
   if (course.turned > 0.0)
     std::printf(" inverts at %.2f %% | |", 100.0 * course.turned);
   else
-    std::printf(" %.3f | %.2f |", course.fraction, course.largest);
+    std::printf(" %.3f | %.2f |", course.looks.back().fraction, course.looks.back().largest);
   std::printf(" %.2e | %.0f | %.1e |\n", course.step, course.seconds, course.residual);
   std::fflush(stdout);
 }
