@@ -17,6 +17,7 @@ public:
   void start(double dt, int K) override {
     dt_ = dt;
     K_ = K;
+    inStep_ = false;
     if (solid_) carryOver(solid_->ledger);
     solid_.emplace(*model_, options_.massFraction, macroStep());
     side.mass = &solid_->motion.mass();
@@ -25,6 +26,7 @@ public:
   }
 
   void begin(bool sampled) override {
+    inStep_ = true;
     if (K_ > 1 && sampled) uBefore_ = model_->nodes.u, forceBefore_ = ownForce();
     halfKick(model_->t + 0.5 * macroStep());
   }
@@ -48,7 +50,7 @@ public:
   void findForces(bool sampled) override {
     sampled_ = sampled;
     added_ = {};
-    solid_->evaluate(macroStep(), sampled);
+    solid_->evaluate(macroStep(), sampled, inStep_);
     showOwn();
   }
 
@@ -62,6 +64,7 @@ public:
   void end() override {
     halfKick(model_->t);
     solid_->accept(macroStep(), true);
+    inStep_ = false;
     if (sampled_) solid_->sample();
   }
 
@@ -69,10 +72,12 @@ public:
     halfKick(model_->t + 0.5 * macroStep());
     kickTouched(load, 0.5 * macroStep());
     solid_->motion.drift(macroStep());
+    inStep_ = true;
     findForces(true);
     halfKick(model_->t);
     kickTouched(load, 0.5 * macroStep());
     solid_->accept(macroStep(), true);
+    inStep_ = false;
     solid_->sample();
   }
 
@@ -87,7 +92,7 @@ public:
   void restart() override {
     uBefore_.clear();
     forceBefore_.clear();
-    solid_->evaluate(macroStep(), true);
+    solid_->evaluate(macroStep(), true, false);
     solid_->sample();
     showOwn();
   }
@@ -176,6 +181,7 @@ private:
     return sum;
   }
 
+  bool inStep_ = false;  // between a macro step's begin() and end(): the forces found there are accepted
   std::optional<fem::BookedMotion> solid_;
   bool sampled_ = true;
   Momenta added_;  // N, N m: loads among the own forces

@@ -116,11 +116,11 @@ StepLimit CoupledRun::Impl::criticalStep() {
   return limit;
 }
 
-void CoupledRun::Impl::lookAtLimit() {
+void CoupledRun::Impl::lookAtLimit(bool failed) {
   const std::int64_t number = grains.steps / K();
   if (!grains.refusesUnstableSteps || grains.passed) return;
   dem::ContactDemand demand = dem::demandOf(grains);
-  const StepLimit limit = limitNow(demand, number % (16 * 2048) == 0);
+  const StepLimit limit = limitNow(demand, !failed && number % (16 * 2048) == 0);
   if (dt > limit.dt) grains.passed = {dt, limit, grains.time};
 }
 

@@ -108,7 +108,7 @@ void CoupledRun::advance(std::int64_t macroSteps, bool withEnergies) {
     try {
       impl_->macroStep(withEnergies && w + 1 == macroSteps);
     } catch (const NumericalError& error) {
-      impl_->lookAtLimit();
+      impl_->lookAtLimit(true);
       dem::reportOfLimit(grains, error);
       throw;
     }

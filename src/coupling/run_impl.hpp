@@ -72,7 +72,7 @@ struct CoupledRun::Impl {
   StepLimit limitNow(dem::ContactDemand& demand, bool looksAtElements);
   double rateOf(const void* model) const;
   StepLimit criticalStep();
-  void lookAtLimit();
+  void lookAtLimit(bool failed = false);
   bool joined() const;
   void joinParticles();
   void requireSides() const;

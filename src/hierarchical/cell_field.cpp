@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 
 #include "dovetail/core/error.hpp"
@@ -29,6 +30,7 @@ void passMatrix(Archive& archive, Matrix& matrix) {
 
 class QuasiStatic {
 public:
+  static constexpr bool startsAnew = true;  ///< answers and tangents are paths from the committed cell
   explicit QuasiStatic(const QuasiStaticCells& settings) : settings_(settings) {}
 
   /// A cell that is to stay where it was committed is at rest there already.
@@ -86,12 +88,13 @@ private:
 };
 
 struct Dynamic {
+  static constexpr bool startsAnew = false;
   DynamicCells settings;
 
   void go(rve::Rve& cell, const Eigen::Matrix3d& F, double dt, bool stays) const {
     if (!stays || dt > 0.0) stepTo(cell, F, settings);
   }
-  rve::Tangent tangent(const rve::Rve& cell, const rve::CellState&) const { return rve::voigtTangent(cell); }
+  rve::Tangent tangent(const rve::Rve& cell) const { return rve::voigtTangent(cell); }
   void commit(const rve::Rve&) {}
   template <class Archive>
   void pass(Archive&) {}
@@ -107,48 +110,53 @@ void requirePlane(const rve::Rve& cell, const Eigen::Matrix3d& F) {
 
 struct CellOwner {
   virtual ~CellOwner() = default;
-  virtual rve::Rve committed() const = 0;
+  virtual void visitCommitted(const std::function<void(const rve::Rve&)>& visit) const = 0;
 };
 
-/// The committed cell, and what the last answer made of it.
+/// A cell, and the committed state where the cell has gone on from it.
 template <class Update>
 class CellPoint final : public fem::FieldPoint, public CellOwner {
 public:
-  CellPoint(const rve::Rve& cell, Update update) : cell_(cell), committed_(cell.state), update_(update) {}
+  CellPoint(const rve::Rve& cell, Update update) : cell_(cell), before_(cell.state.ledger), update_(update) {}
 
   void evaluate(std::span<const double, 9> F, double dt, bool moved, fem::PointAnswer answer) override {
     const Eigen::Matrix3d wanted = Eigen::Map<const RowMajor>(F.data());
-    if (!known_ || dt != dt_ || wanted != F_) {
-      known_ = false;
+    if (!answered_ || dt != dt_ || wanted != F_) {
       requirePlane(cell_, wanted);
-      rve::restore(cell_, committed_);
-      update_.go(cell_, wanted, dt, wanted == committedF_);
-      F_ = wanted;
-      dt_ = dt;
-      known_ = true;
+      keep();
+      go(wanted, dt);
+      moved = true;
     }
-    if (moved) tell(answer);
-    if (!answer.tangent.empty())
-      Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>>(answer.tangent.data()) =
-          update_.tangent(cell_, committed_);
+    tell(moved, answer);
+  }
+  void advance(std::span<const double, 9> F, double dt, fem::PointAnswer answer) override {
+    if constexpr (Update::startsAnew) return evaluate(F, dt, true, answer);
+    const Eigen::Matrix3d wanted = Eigen::Map<const RowMajor>(F.data());
+    requirePlane(cell_, wanted);
+    goBack();
+    committed_ = Committed::lost;
+    go(wanted, dt);
+    tell(true, answer);
   }
 
   void commit() override {
-    if (!known_) return;
+    if (!answered_) return;
     update_.commit(cell_);
-    std::swap(committed_, cell_.state);
+    before_ = cell_.state.ledger;
     committedF_ = F_;
-    known_ = false;
+    committed_ = Committed::inCell;
+    answered_ = false;
   }
-  void revert() override { known_ = false; }
-  rve::Rve committed() const override {
+  void revert() override { answered_ = false; }
+  void visitCommitted(const std::function<void(const rve::Rve&)>& visit) const override {
+    if (committed_ == Committed::inCell) return visit(cell_);
     rve::Rve cell = cell_;
-    cell.state = committed_;
-    return cell;
+    cell.state = committed();
+    visit(cell);
   }
 
   void save(ByteWriter& archive) const override {
-    rve::writeState(cell_, committed_, archive);
+    rve::writeState(cell_, committed(), archive);
     Eigen::Matrix3d F = committedF_;
     passMatrix(archive, F);
     Update update = update_;
@@ -162,27 +170,71 @@ public:
       throw InputError("the deformation differs from that of the cell", "cell of grains", "take an older file");
     Update update = update_;
     update.pass(archive);
-    committed_ = std::move(state);
+    cell_.state = std::move(state);
+    before_ = cell_.state.ledger;
     committedF_ = F;
     update_ = update;
-    known_ = false;
+    committed_ = Committed::inCell;
+    answered_ = false;
   }
 
 private:
-  void tell(fem::PointAnswer& answer) const {
-    Eigen::Map<RowMajor>(answer.P.data()) = rve::nominalStress(cell_);
-    const rve::RveLedger &now = cell_.state.ledger, &before = committed_.ledger;
-    answer.energy = (rve::storedEnergy(cell_) + rve::kineticEnergy(cell_)) / cell_.volume;
-    answer.dissipated =
-        (now.friction - before.friction + now.damping - before.damping + now.bonds - before.bonds) / cell_.volume;
+  enum class Committed { inCell, kept, lost };
+
+  [[noreturn]] static void refuse() {
+    throw NumericalError("the grains have gone on in a step that was not accepted, and where it began was not kept",
+                         "cell of grains", "load a saved state");
+  }
+  const rve::CellState& committed() const {
+    if (committed_ == Committed::lost) refuse();
+    return committed_ == Committed::kept ? kept_ : cell_.state;
+  }
+  /// The cell is in its committed state, which is nowhere else.
+  void goBack() {
+    if (committed_ == Committed::lost) refuse();
+    if (committed_ == Committed::kept) std::swap(cell_.state, kept_);
+    committed_ = Committed::inCell;
+    answered_ = false;
+  }
+  /// The same, but it is kept too.
+  void keep() {
+    if (committed_ == Committed::kept)
+      cell_.state = kept_;
+    else
+      kept_ = committed();
+    committed_ = Committed::kept;
+    answered_ = false;
+  }
+  void go(const Eigen::Matrix3d& F, double dt) {
+    update_.go(cell_, F, dt, F == committedF_);
+    F_ = F;
+    dt_ = dt;
+    answered_ = true;
+  }
+  void tell(bool moved, fem::PointAnswer& answer) {
+    if (moved) {
+      Eigen::Map<RowMajor>(answer.P.data()) = rve::nominalStress(cell_);
+      const rve::RveLedger& now = cell_.state.ledger;
+      answer.dissipated =
+          (now.friction - before_.friction + now.damping - before_.damping + now.bonds - before_.bonds) / cell_.volume;
+    }
+    if (answer.withEnergy) answer.energy = (rve::storedEnergy(cell_) + rve::kineticEnergy(cell_)) / cell_.volume;
+    if (answer.tangent.empty()) return;
+    Eigen::Map<Eigen::Matrix<double, 9, 9, Eigen::RowMajor>> tangent(answer.tangent.data());
+    if constexpr (Update::startsAnew)
+      tangent = update_.tangent(cell_, committed());
+    else
+      tangent = update_.tangent(cell_);
   }
 
   rve::Rve cell_;
-  rve::CellState committed_;
+  rve::CellState kept_;    ///< the committed state, if it is kept apart
+  rve::RveLedger before_;  ///< of the committed state
   Update update_;
   Eigen::Matrix3d F_, committedF_ = Eigen::Matrix3d::Identity();
   double dt_ = 0.0;
-  bool known_ = false;  ///< whether the cell is the answer for F_ and dt_
+  Committed committed_ = Committed::inCell;  ///< where that state is
+  bool answered_ = false;                    ///< whether the cell is the answer for F_ and dt_
 };
 
 template <class Update>
@@ -199,10 +251,10 @@ std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double u
 
 }  // namespace
 
-std::optional<rve::Rve> committedCell(const fem::PointField& field, std::size_t point) {
+bool visitCell(const fem::PointField& field, std::size_t point, const std::function<void(const rve::Rve&)>& visit) {
   const auto* const owner = dynamic_cast<const CellOwner*>(field.point(point));
-  if (!owner) return {};
-  return owner->committed();
+  if (owner) owner->visitCommitted(visit);
+  return owner != nullptr;
 }
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings) {

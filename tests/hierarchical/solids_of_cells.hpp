@@ -65,11 +65,19 @@ public:
     F_.resize(9 * n), P.resize(9 * n), tangent.resize(81 * n), energy.resize(n), dissipated.resize(n), reason.resize(n);
   }
   /// The same F at all points. @return the stress at the first
-  Eigen::Matrix3d operator()(const Eigen::Matrix3d& F, bool withTangent = false, double dt = 1.0) {
+  Eigen::Matrix3d operator()(const Eigen::Matrix3d& F, bool withTangent = false, double dt = 1.0,
+                             bool willCommit = false) {
     for (std::size_t p = 0; p < energy.size(); ++p) Eigen::Map<RowMajor>(F_.data() + 9 * p) = F;
     std::ranges::fill(reason, std::string{});
-    field_->evaluate(
-        {F_, dt, true, P, withTangent ? std::span<double>(tangent) : std::span<double>{}, energy, dissipated, reason});
+    field_->evaluate({.F = F_,
+                      .dt = dt,
+                      .moved = true,
+                      .P = P,
+                      .tangent = withTangent ? std::span<double>(tangent) : std::span<double>{},
+                      .energy = energy,
+                      .dissipated = dissipated,
+                      .reason = reason,
+                      .willCommit = willCommit});
     return matrixAt(P, 0);
   }
   rve::Tangent tangentAt(const Eigen::Matrix3d& F) {

@@ -46,6 +46,96 @@ TEST(DynamicCells, PointsOfARunAreStandAloneCellsToTheLastBit) {
   for (std::size_t p = 0; p < cells.size(); ++p) EXPECT_EQ(matrixAt(sample.P, p), rve::nominalStress(cells[p]));
 }
 
+TEST(DynamicCells, SteppedInPlaceTheyAnswerAsThoseThatKeepTheirStart) {
+  Asked kept(cellField(oneCell(), DynamicCells{})), inPlace(cellField(oneCell(), DynamicCells{}));
+  for (int k = 1; k <= 30; ++k) {
+    const Eigen::Matrix3d F = plane(1.0, 4e-5 * k, 0.0, 1.0 - 5e-5 * k);
+    if (k % 7 == 0) inPlace(plane(0.999, 0.0, 0.0, 1.0));  // a look elsewhere in between
+    const Eigen::Matrix3d P = kept(F, k % 5 == 0), Q = inPlace(F, k % 5 == 0, 1.0, true);
+    EXPECT_EQ(P, Q);
+    EXPECT_EQ(kept.energy, inPlace.energy);
+    EXPECT_EQ(kept.dissipated, inPlace.dissipated);
+    EXPECT_EQ(kept.tangent, inPlace.tangent);
+    kept.field().commit(), inPlace.field().commit();
+    ByteWriter one, other;
+    kept.field().save(one), inPlace.field().save(other);
+    EXPECT_TRUE(std::ranges::equal(one.bytes(), other.bytes()));
+  }
+}
+
+TEST(DynamicCells, SteppedInPlaceTheyRefuseToGoBack) {
+  Asked asked(cellField(oneCell(), DynamicCells{}));
+  ByteWriter start;
+  asked.field().save(start);
+  const Eigen::Matrix3d F = plane(1.0, 0.0, 0.0, 0.9995), other = plane(1.0, 0.0, 0.0, 0.999);
+  const Eigen::Matrix3d P = asked(F, false, 1.0, true);
+  asked(other);
+  EXPECT_NE(asked.reason[0].find("was not kept"), std::string::npos) << asked.reason[0];
+  asked.field().revert();
+  asked(F);
+  EXPECT_NE(asked.reason[0].find("was not kept"), std::string::npos) << asked.reason[0];
+  ByteWriter nothing;
+  EXPECT_THROW(asked.field().save(nothing), NumericalError);
+  EXPECT_THROW(visitCell(asked.field(), 0, [](const rve::Rve&) {}), NumericalError);
+  ByteReader back(start.bytes());
+  asked.field().load(back);
+  EXPECT_EQ(asked(F, false, 1.0, true), P);
+  asked.field().commit();
+  EXPECT_EQ(asked(F, false, 0.0), P);
+}
+
+/// A field whose points never hear that their answers will be committed.
+class Doubting final : public fem::PointField {
+public:
+  explicit Doubting(std::shared_ptr<fem::PointField> inner) : inner_(std::move(inner)) {}
+  std::string name() const override { return inner_->name(); }
+  double density() const override { return inner_->density(); }
+  void open(std::span<const fem::PointPlace> places) override { inner_->open(places); }
+  void evaluate(const fem::FieldRequest& request) override {
+    told += request.willCommit ? 1 : 0;
+    fem::FieldRequest asked = request;
+    asked.willCommit = false;
+    inner_->evaluate(asked);
+  }
+  void commit() override { inner_->commit(); }
+  void revert() override { inner_->revert(); }
+  void save(ByteWriter& archive) const override { inner_->save(archive); }
+  void load(ByteReader& archive) override { inner_->load(archive); }
+  int told = 0;
+
+private:
+  std::shared_ptr<fem::PointField> inner_;
+};
+
+TEST(DynamicCells, RunsStepThemInPlaceWithTheSameDigits) {
+  for (const fem::ExplicitOptions& options : {fem::ExplicitOptions{}, fem::ExplicitOptions{.safety = 0.8}}) {
+    const auto doubting = std::make_shared<Doubting>(cellField(threeCells(), DynamicCells{}));
+    Moving inPlace;
+    Biaxial kept({1, 2}, doubting, fem::ElementShape::quad4, 0.05);
+    fem::addMass(kept.model);
+    fem::ExplicitIntegrator one(inPlace.model, dt, options), other(kept.model, dt, options);
+    one.run(40), other.run(40);
+    EXPECT_EQ(doubting->told, 40);
+    EXPECT_EQ(inPlace.model.nodes.u, kept.model.nodes.u);
+    EXPECT_EQ(inPlace.model.nodes.v, kept.model.nodes.v);
+    EXPECT_EQ(one.ledger().residual(), other.ledger().residual());
+  }
+}
+
+TEST(DynamicCells, EnergiesReadBetweenStepsDisturbNothing) {
+  Moving booked, spared, read;
+  fem::ExplicitIntegrator one(booked.model, dt), other(spared.model, dt, {.energyEvery = 0}),
+      looked(read.model, dt, {.energyEvery = 0});
+  for (int k = 0; k < 4; ++k) {
+    one.run(10), other.run(10), looked.run(10);
+    const double energy = booked.solid->energy(booked.model.nodes, {booked.model.t, dt});
+    EXPECT_GT(energy, 0.0);
+    EXPECT_EQ(read.solid->energy(read.model.nodes, {read.model.t, dt}), energy);
+  }
+  EXPECT_EQ(booked.model.nodes.u, spared.model.nodes.u);
+  EXPECT_EQ(booked.model.nodes.u, read.model.nodes.u);
+}
+
 TEST(DynamicCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
   Moving whole, first, second;
   fem::ExplicitIntegrator all(whole.model, dt), before(first.model, dt), after(second.model, dt);

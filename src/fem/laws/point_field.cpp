@@ -40,7 +40,7 @@ public:
   }
 
   void evaluate(const FieldRequest& request) override {
-    if (!request.moved && request.tangent.empty()) return;
+    if (!request.moved && request.tangent.empty() && !request.withEnergy) return;
     parallelFor(groups(), 16, [&](std::size_t begin, std::size_t end) {
       Group group;
       for (std::size_t g = begin; g < end; ++g) {
@@ -180,11 +180,15 @@ private:
   void evaluate(std::size_t p, const FieldRequest& request) {
     const auto start = std::chrono::steady_clock::now();
     const bool withTangent = !request.tangent.empty();
+    const std::span<const double, 9> F(request.F.subspan(9 * p, 9));
+    const PointAnswer answer{std::span<double, 9>(request.P.subspan(9 * p, 9)),
+                             withTangent ? request.tangent.subspan(81 * p, 81) : std::span<double>{}, request.energy[p],
+                             request.dissipated[p], request.withEnergy};
     try {
-      points_[p]->evaluate(std::span<const double, 9>(request.F.subspan(9 * p, 9)), request.dt, request.moved,
-                           {std::span<double, 9>(request.P.subspan(9 * p, 9)),
-                            withTangent ? request.tangent.subspan(81 * p, 81) : std::span<double>{}, request.energy[p],
-                            request.dissipated[p]});
+      if (request.willCommit && request.moved)
+        points_[p]->advance(F, request.dt, answer);
+      else
+        points_[p]->evaluate(F, request.dt, request.moved, answer);
     } catch (const std::exception& error) {
       request.reason[p] = error.what();
     }

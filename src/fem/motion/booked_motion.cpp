@@ -28,11 +28,11 @@ BookedMotion::BookedMotion(Model& model, double massFraction, double h)
       worksAreBooked_(std::ranges::any_of(model.terms, [](const auto& term) { return !term->hasEnergy(); })) {
   motion.dofs().apply(model.t, model.nodes.u);
   motion.dofs().applyVelocity(model.t, h, model.nodes.v);
-  findForces(h, true);
+  findForces(h, true, false);
 }
 
-void BookedMotion::findForces(double h, bool withEnergies) {
-  motion.forces(h, withEnergies);
+void BookedMotion::findForces(double h, bool withEnergies, bool willAccept) {
+  motion.forces(h, withEnergies, willAccept);
   outside_.clear();
   accelerated_ = false;
 }
@@ -46,12 +46,12 @@ void BookedMotion::accelerate(double h) {
   accelerated_ = true;
 }
 
-void BookedMotion::evaluate(double h, bool withEnergies) {
-  if (!guessesVelocity_) return findForces(h, withEnergies);
+void BookedMotion::evaluate(double h, bool withEnergies, bool willAccept) {
+  if (!guessesVelocity_) return findForces(h, withEnergies, willAccept);
   Model& model = motion.model();
   std::vector<Vec3> guess = model.nodes.v;
   push(h, model.t);
-  findForces(h, withEnergies);
+  findForces(h, withEnergies, willAccept);
   model.nodes.v.swap(guess);
 }
 

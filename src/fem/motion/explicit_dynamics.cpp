@@ -44,7 +44,7 @@ struct ExplicitIntegrator::Impl {
     ++steps;
     {
       const Profile::Stage stage(profile, "forces");
-      solid.evaluate(dt, samples());
+      solid.evaluate(dt, samples(), true);
     }
     check(halfKick(model.t));
     {

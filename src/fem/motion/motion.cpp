@@ -63,9 +63,10 @@ const ModelMass& Motion::mass() const { return impl_->mass; }
 std::span<const double> Motion::energies() const { return impl_->sum.energies; }
 std::span<const std::vector<Vec3>> Motion::loads() const { return impl_->sum.loads; }
 
-double Motion::forces(double dt, bool withEnergy) {
+double Motion::forces(double dt, bool withEnergy, bool willCommit) {
   Model& model = *impl_->model;
-  return impl_->sum.evaluate(model, model.nodes, {model.t, dt, &impl_->mass}, model.nodes.f, withEnergy);
+  const Instant now{.t = model.t, .dt = dt, .mass = &impl_->mass, .willCommit = willCommit};
+  return impl_->sum.evaluate(model, model.nodes, now, model.nodes.f, withEnergy);
 }
 
 void Motion::setLoads(std::vector<std::vector<Vec3>> loads) { impl_->sum.loads = std::move(loads); }

@@ -4,7 +4,6 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
@@ -41,8 +40,8 @@ void forEachCell(const fem::Model& model, Act&& act) {
     const fem::PointField* const field = solid.field();
     if (!field) return;
     for (std::size_t p = 0; p < sample.element.size(); ++p)
-      if (const std::optional<rve::Rve> cell = hierarchical::committedCell(*field, p))
-        act(sample.element[p], sample.X[p], sample.volume[p], *cell);
+      hierarchical::visitCell(
+          *field, p, [&](const rve::Rve& cell) { act(sample.element[p], sample.X[p], sample.volume[p], cell); });
   });
 }
 

@@ -40,6 +40,7 @@ public:
   }
   void evaluate(const FieldRequest& request) override {
     ++(request.moved ? states : tangentsAlone);
+    energies += request.withEnergy ? 1 : 0;
     const std::pair state(std::vector<double>(request.F.begin(), request.F.end()), request.dt);
     if (request.moved) repeated += static_cast<int>(std::ranges::count(seen_, state));
     seen_.push_back(state);
@@ -57,7 +58,7 @@ public:
   void load(ByteReader& archive) override { inner_->load(archive); }
 
   std::vector<PointPlace> places;
-  int states = 0, repeated = 0, tangentsAlone = 0, commits = 0, reverts = 0, spoil = -1;
+  int states = 0, energies = 0, repeated = 0, tangentsAlone = 0, commits = 0, reverts = 0, spoil = -1;
   std::string reason;
 
 private:
@@ -183,6 +184,33 @@ TEST(PointField, IsAskedOncePerState) {
   EXPECT_EQ(still.field->commits, steps);
   EXPECT_EQ(still.field->repeated, 0);
   EXPECT_GT(still.field->tangentsAlone, 0);
+}
+
+/// Steps without a ledger spare the points their energy; whoever reads it later gets that of the committed state.
+TEST(PointField, EnergiesThatStepsDidNotAskForAreFoundWhenTheyAreRead) {
+  const std::vector<MaterialPointer> materials = {pointMaterial(metal),
+                                                  pointMaterial(kelvinVoigt(pointMaterial(metal), 0.01, 1e7, 0.3))};
+  for (const MaterialPointer& material : materials) {
+    Pulled booked(pointField(material)), spared(pointField(material));
+    ExplicitIntegrator with(booked.scene.model, 1e-6), without(spared.scene.model, 1e-6, {.energyEvery = 0});
+    const int atStart = spared.field->energies;
+    for (int round = 1; round <= 3; ++round) {
+      with.run(20), without.run(20);
+      EXPECT_EQ(spared.field->energies - atStart, round - 1);
+      const Instant now{spared.scene.model.t, 1e-6};
+      const std::vector<double> P = spared.scene.solid->sample(spared.scene.model.nodes, now).P;
+      const double energy = spared.scene.solid->energy(spared.scene.model.nodes, now);
+      EXPECT_GT(energy, 0.0);
+      EXPECT_NEAR(energy, booked.scene.solid->energy(booked.scene.model.nodes, now), 1e-13 * energy);
+      EXPECT_EQ(spared.scene.solid->energy(spared.scene.model.nodes, now), energy);
+      expectSame(spared.scene.solid->elementEnergies(spared.scene.model.nodes, now),
+                 booked.scene.solid->elementEnergies(booked.scene.model.nodes, now));
+      EXPECT_EQ(spared.scene.solid->sample(spared.scene.model.nodes, now).P, P);
+      EXPECT_EQ(spared.field->energies - atStart, round);
+    }
+    EXPECT_EQ(booked.scene.model.nodes.u, spared.scene.model.nodes.u);
+    EXPECT_EQ(spared.field->commits, 60);
+  }
 }
 
 TEST(PointField, APointWithoutAnAnswerCutsTheStepAndIsNamed) {

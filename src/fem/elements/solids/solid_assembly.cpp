@@ -101,7 +101,7 @@ void SolidBase::assemble(const Nodes& nodes, const Instant& now, const Vec3* sta
                          linalg::BlockMatrix& K) {
   requireSameNodes(nodes);
   needGeometry();
-  start == nullptr ? ask(nodes, now, true) : openPoints();
+  start == nullptr ? ask(nodes, now, {.tangent = true}) : openPoints();
   colourBatches();
   findPlaces(K);
   // Histories of laws are now those of the last batch evaluated with a tangent.

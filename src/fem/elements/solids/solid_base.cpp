@@ -73,11 +73,10 @@ void SolidBase::openPoints() {
 }
 
 /// Has a field of points answer for all of them, unless it has.
-/// @param toRead  not to go on from: answers of a state that was committed since will do
-void SolidBase::ask(const Nodes& nodes, const Instant& now, bool withTangent, bool toRead) {
+void SolidBase::ask(const Nodes& nodes, const Instant& now, const Wanted& wanted) {
   openPoints();
   FieldPoints* const field = points_->field();
-  if (field == nullptr || field->knows(nodes.u, now, withTangent, toRead)) return;
+  if (field == nullptr || field->knows(nodes.u, now, wanted)) return;
   needGeometry();
   parallelFor(cells_.batches(), batchChunk, [&](std::size_t begin, std::size_t end) {
     LaneVector F(9 * pointCount());
@@ -86,7 +85,7 @@ void SolidBase::ask(const Nodes& nodes, const Instant& now, bool withTangent, bo
       field->gather(b, F.data());
     }
   });
-  field->ask(nodes.u, now, withTangent, options_.name);
+  field->ask(nodes.u, now, wanted, options_.name);
 }
 
 void SolidBase::load(ByteReader& archive) {
@@ -173,7 +172,8 @@ SolidBase::Totals SolidBase::eachBatch(std::span<Vec3> f, Body&& body) {
 SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, const Vec3* start, std::span<Vec3> f,
                                     bool withEnergy) {
   requireSameNodes(nodes);
-  ask(nodes, now);
+  const bool energyLater = !withEnergy && now.willCommit && points_->field() != nullptr;
+  ask(nodes, now, {.energy = !energyLater});
   if (bricks_ && start == nullptr) {
     // The kernels are in a file of their own and write to memory, so that no compiler fuses a product of theirs with
     // the sum over elements: one thread and many then add the very same numbers.
@@ -196,7 +196,7 @@ SolidBase::Totals SolidBase::addAll(const Nodes& nodes, const Instant& now, cons
     return Totals{task.wantEnergy ? sumOfLanes(result.energy) : 0.0,
                   task.wantDissipation ? sumOfLanes(result.dissipated) : 0.0};
   });
-  if (remembers) evaluation_ = {nodes.u, now.dt, now.rateAtEnd, sum, true, false};
+  if (remembers) evaluation_ = {nodes.u, now.dt, now.rateAtEnd, sum, true, !energyLater, false};
   return sum;
 }
 
@@ -223,10 +223,11 @@ bool SolidBase::isKnown(const Nodes& nodes, const Instant& now) const {
 }
 
 /// Energy and dissipation at a state, asked of the material only if the last forces were not those of the same state.
-SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
+SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now, bool withEnergy) {
   requireSameNodes(nodes);
-  if (isKnown(nodes, now)) return evaluation_.totals;
-  ask(nodes, now, false, true);
+  const bool known = isKnown(nodes, now);
+  if (known && (evaluation_.hasEnergy || !withEnergy)) return evaluation_.totals;
+  ask(nodes, now, {.toRead = true});
   const bool remembers = points_->remembers();
   const Totals sum = parallelSum(cells_.batches(), chunkSize(), [&](std::size_t begin, std::size_t end) {
     Totals part;
@@ -240,7 +241,7 @@ SolidBase::Totals SolidBase::totals(const Nodes& nodes, const Instant& now) {
     }
     return part;
   });
-  if (remembers) evaluation_ = {nodes.u, now.dt, now.rateAtEnd, sum, true, false};
+  if (remembers) evaluation_ = {nodes.u, now.dt, now.rateAtEnd, sum, true, true, known && evaluation_.committed};
   return sum;
 }
 
@@ -258,11 +259,11 @@ void SolidBase::forcesByKernels(const BatchTask& task, BatchResult& result) cons
   result.dissipated = Lane{};
 }
 
-double SolidBase::energy(const Nodes& nodes, const Instant& now) { return totals(nodes, now).energy; }
+double SolidBase::energy(const Nodes& nodes, const Instant& now) { return totals(nodes, now, true).energy; }
 
 std::vector<double> SolidBase::elementEnergies(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
-  ask(nodes, now, false, true);
+  ask(nodes, now, {.toRead = true});
   std::vector<double> energies(cells_.size());
   parallelFor(cells_.batches(), batchChunk, [&](std::size_t begin, std::size_t end) {
     BatchResult result;
@@ -281,8 +282,8 @@ std::vector<double> SolidBase::elementEnergies(const Nodes& nodes, const Instant
 double SolidBase::commit(const Nodes& nodes, const Instant& now) {
   if (!points_->remembers()) return 0.0;
   if (evaluation_.committed) evaluation_.known = false;
-  ask(nodes, now);
-  const double dissipated = totals(nodes, now).dissipated;
+  ask(nodes, now, {.energy = false});
+  const double dissipated = totals(nodes, now, false).dissipated;
   points_->commit();
   evaluation_.committed = true;
   return dissipated;
@@ -339,7 +340,7 @@ std::size_t SolidBase::memory() const {
 Solid::Sample SolidBase::sample(const Nodes& nodes, const Instant& now) {
   requireSameNodes(nodes);
   needGeometry();
-  ask(nodes, now, false, true);
+  ask(nodes, now, {.toRead = true});
   evaluation_.known = false;
   const std::size_t points = pointCount();
   LaneVector F(9 * points), P(9 * points), energy(points);

@@ -131,7 +131,7 @@ private:
     double dt = 0.0;
     bool rateAtEnd = false;
     Totals totals;
-    bool known = false, committed = false;
+    bool known = false, hasEnergy = false, committed = false;
   };
 
   BatchTask taskOf(std::size_t batch, const Nodes& nodes, const Instant& now, const Vec3* start = nullptr) const;
@@ -149,8 +149,8 @@ private:
   std::size_t chunkSize() const;
   void energies(const BatchTask& task, BatchResult& result);
   bool isKnown(const Nodes& nodes, const Instant& now) const;
-  Totals totals(const Nodes& nodes, const Instant& now);
-  void ask(const Nodes& nodes, const Instant& now, bool withTangent = false, bool toRead = false);
+  Totals totals(const Nodes& nodes, const Instant& now, bool withEnergy);
+  void ask(const Nodes& nodes, const Instant& now, const Wanted& wanted = {});
   template <class Visit>
   void eachPoint(Visit&& visit) const;
   [[noreturn]] void complain(std::size_t batch, std::size_t lane, const std::string& reason,

@@ -141,28 +141,56 @@ void FieldPoints::evaluate(const PointCall& call) {
     }
 }
 
-bool FieldPoints::knows(std::span<const Vec3> u, const Instant& now, bool withTangent, bool toRead) const {
-  return asked_ && dt_ == now.dt && rateAtEnd_ == now.rateAtEnd && (toRead || !committed_) &&
-         (hasTangent_ || !withTangent) && std::ranges::equal(u_, u);
+bool FieldPoints::knows(std::span<const Vec3> u, const Instant& now, const Wanted& wanted) const {
+  return asked_ && dt_ == now.dt && rateAtEnd_ == now.rateAtEnd && (wanted.toRead || !committed_) &&
+         (hasTangent_ || !wanted.tangent) && (hasEnergy_ || !wanted.energy) && std::ranges::equal(u_, u);
 }
 
-FieldRequest FieldPoints::request(const Instant& now, bool moved, bool withTangent) {
-  if (withTangent) tangent_.resize(81 * places_.size());
-  return {F_,      now.dt,      moved,   P_,           withTangent ? std::span<double>(tangent_) : std::span<double>{},
-          energy_, dissipated_, reason_, now.rateAtEnd};
+FieldRequest FieldPoints::request(const Instant& now, bool moved, const Wanted& wanted) {
+  if (wanted.tangent) tangent_.resize(81 * places_.size());
+  return {.F = F_,
+          .dt = now.dt,
+          .moved = moved,
+          .P = P_,
+          .tangent = wanted.tangent ? std::span<double>(tangent_) : std::span<double>{},
+          .energy = energy_,
+          .dissipated = dissipated_,
+          .reason = reason_,
+          .rateAtEnd = now.rateAtEnd,
+          .willCommit = now.willCommit,
+          .withEnergy = wanted.energy};
 }
 
-void FieldPoints::ask(std::span<const Vec3> u, const Instant& now, bool withTangent, const std::string& name) {
-  const bool moved = !knows(u, now, false, false);
-  asked_ = false;
+/// Of the committed state, whose answer was taken without: no time passes from there to the same F.
+void FieldPoints::findEnergies() {
+  std::vector<double> P(P_.size()), dissipated(dissipated_.size());
+  field_->evaluate({.F = F_,
+                    .dt = 0.0,
+                    .moved = true,
+                    .P = P,
+                    .tangent = {},
+                    .energy = energy_,
+                    .dissipated = dissipated,
+                    .reason = reason_});
+  hasEnergy_ = true;
+}
+
+void FieldPoints::ask(std::span<const Vec3> u, const Instant& now, const Wanted& wanted, const std::string& name) {
   std::ranges::fill(reason_, std::string{});
-  field_->evaluate(request(now, moved, withTangent));
+  if (committed_ && knows(u, now, {.tangent = wanted.tangent, .energy = false, .toRead = wanted.toRead})) {
+    findEnergies();
+    return requireAnswers(name);
+  }
+  const bool moved = !knows(u, now, {.energy = false});
+  asked_ = false;
+  field_->evaluate(request(now, moved, wanted));
   requireAnswers(name);
   u_.assign(u.begin(), u.end());
   dt_ = now.dt;
   rateAtEnd_ = now.rateAtEnd;
   asked_ = true;
-  hasTangent_ = withTangent;
+  hasTangent_ = wanted.tangent;
+  hasEnergy_ = wanted.energy || (!moved && hasEnergy_);
   committed_ = false;
 }
 
@@ -185,7 +213,7 @@ void FieldPoints::requireAnswers(const std::string& name) const {
 ModuliAtRest FieldPoints::moduliAtRest() {
   for (std::size_t p = 0; p < places_.size(); ++p)
     for (std::size_t k = 0; k < 9; ++k) F_[9 * p + k] = k % 4 == 0 ? 1.0 : 0.0;
-  field_->evaluate(request(Instant{}, true, true));
+  field_->evaluate(request(Instant{}, true, {.tangent = true}));
   requireAnswers(field_->name());
   ModuliAtRest mean{0.0, 0.0};
   for (std::size_t p = 0; p < places_.size(); ++p) {

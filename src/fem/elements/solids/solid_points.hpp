@@ -23,6 +23,13 @@ struct PointCall {
   Lane *P, *tangent, *energy, *dissipated;
 };
 
+/// What is wanted of an answer beside the stress.
+struct Wanted {
+  bool tangent = false;
+  bool energy = true;
+  bool toRead = false;  ///< not to go on from: answers of a state that was committed since will do
+};
+
 class SolidPoints {
 public:
   SolidPoints() = default;
@@ -95,15 +102,16 @@ public:
 
   /// Whether the answers are those of these displacements and this length of the step, and whether nothing was
   /// committed since (where `toRead` that does not matter).
-  bool knows(std::span<const Vec3> u, const Instant& now, bool withTangent, bool toRead) const;
+  bool knows(std::span<const Vec3> u, const Instant& now, const Wanted& wanted) const;
   /// Where F of all points belongs before ask(): lanes of a batch, [9 q + 3 i + J].
   void gather(std::size_t batch, const Lane* F);
   /// @throws NumericalError naming the first element and point without an answer, or with one that is not finite
-  void ask(std::span<const Vec3> u, const Instant& now, bool withTangent, const std::string& name);
+  void ask(std::span<const Vec3> u, const Instant& now, const Wanted& wanted, const std::string& name);
 
 private:
   void requireAnswers(const std::string& name) const;
-  FieldRequest request(const Instant& now, bool moved, bool withTangent);
+  FieldRequest request(const Instant& now, bool moved, const Wanted& wanted);
+  void findEnergies();
   std::size_t place(std::size_t batch, std::size_t point, std::size_t lane) const;
 
   std::shared_ptr<PointField> field_;
@@ -113,7 +121,7 @@ private:
   std::vector<std::string> reason_;
   std::vector<Vec3> u_;
   double dt_ = 0.0;
-  bool rateAtEnd_ = false, asked_ = false, hasTangent_ = false, committed_ = false;
+  bool rateAtEnd_ = false, asked_ = false, hasTangent_ = false, hasEnergy_ = false, committed_ = false;
 };
 
 }  // namespace dovetail::fem::detail

@@ -41,7 +41,7 @@ struct Invariants {
 StableStep SolidBase::stableStep(const Nodes& nodes) {
   requireSameNodes(nodes);
   needGeometry();
-  ask(nodes, {}, true);
+  ask(nodes, {}, {.tangent = true});
   evaluation_.known = false;
   const std::size_t size = 3 * cells_.nodes;
   const auto matrixOf = [&](std::size_t e, LaneVector& K) {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,8 +32,8 @@ struct QuasiStaticCells {
   Operator tangent = Operator::elasticTangent;
 };
 
-/// Explicit dynamics: cells are stepped along and never wait for rest. Their clock is their own: of a contact law
-/// without rates, only how far they are from rest depends on it.
+/// Explicit dynamics: cells are stepped along and never wait for rest, in place where the step is accepted for certain.
+/// Their clock is their own: of a contact law without rates, only how far they are from rest depends on it.
 struct DynamicCells {
   double strainPerStep = 3e-5;  ///< at most, of a step of the grains; > 0
   double damping = 0.1;         ///< as in rve::step, in [0, 1)
@@ -51,8 +51,9 @@ std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const 
 /// The same for explicit dynamics. The tangent, from which stable steps follow, is voigtTangent: an upper bound.
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings);
 
-/// The cell of a point of such a field, in the order of open(), as it was committed last; none of other fields.
-std::optional<rve::Rve> committedCell(const fem::PointField& field, std::size_t point);
+/// Shows the cell of a point of such a field, in the order of open(), as it was committed last, while `visit` runs.
+/// @return whether there is one: other fields have none
+bool visitCell(const fem::PointField& field, std::size_t point, const std::function<void(const rve::Rve&)>& visit);
 
 /// From the present deformation to F and to rest there, as points do in statics.
 /// @throws InputError as rve::followPath, or if a setting is not valid; NumericalError if the cell does not come to

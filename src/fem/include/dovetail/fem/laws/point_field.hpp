@@ -28,8 +28,8 @@ struct PointPlace {
 struct FieldRequest {
   std::span<const double> F;  ///< ∂x/∂X at the end of the step, [9 p + 3 i + J]
   double dt;                  ///< length of the step, s; 0 where no time passes
-  /// False if F and dt are those of the last evaluation, and nothing was committed or reverted since: P, energy,
-  /// dissipated and reason still hold what was answered then, and only the tangent is missing.
+  /// False if F and dt are those of the last evaluation, and nothing was committed or reverted since: P, dissipated and
+  /// reason still hold what was answered then, and only the tangent or the energy is missing.
   bool moved;
   std::span<double> P;            ///< out: first Piola–Kirchhoff stress, Pa, [9 p + 3 i + J]
   std::span<double> tangent;      ///< out: ∂P_iJ/∂F_kL, Pa, [81 p + 9 (3 i + J) + 3 k + L]; empty if not asked for
@@ -37,6 +37,8 @@ struct FieldRequest {
   std::span<double> dissipated;   ///< out: energy dissipated in the step per reference volume, J/m³, ≥ 0
   std::span<std::string> reason;  ///< out: why a point has no answer and what to do; empty where it has one
   bool rateAtEnd = false;         ///< as in PointBatch
+  bool willCommit = false;        ///< as in Instant: the committed states are not wanted again
+  bool withEnergy = true;         ///< else `energy` may be left as it is
 };
 
 /// All points of one solid with their states. Elements gather F of all points, ask once, and make forces or matrices
@@ -83,6 +85,7 @@ struct PointAnswer {
   std::span<double> tangent;  ///< 81 numbers, or empty if not asked for
   double& energy;
   double& dissipated;
+  bool withEnergy;  ///< else `energy` may be left as it is
 };
 
 /// One point with a state of its own, of any type and size.
@@ -92,6 +95,9 @@ public:
   /// As PointField::evaluate, for one point. Several points are asked at the same time from different threads.
   /// @throws any std::exception if it has no answer: its text becomes the reason
   virtual void evaluate(std::span<const double, 9> F, double dt, bool moved, PointAnswer answer) = 0;
+  /// The same where F and dt are new and commit() follows for certain: the committed state need not be kept. Until then
+  /// a point that has not kept it refuses all but commit(), load() and questions about this answer.
+  virtual void advance(std::span<const double, 9> F, double dt, PointAnswer answer) { evaluate(F, dt, true, answer); }
   virtual void commit() = 0;
   virtual void revert() = 0;
   virtual void save(ByteWriter& archive) const = 0;

@@ -30,6 +30,7 @@ struct Instant {
   double dt = 0.0;
   const ModelMass* mass = nullptr;  ///< of the integrator; null in statics, where velocities mean nothing
   bool rateAtEnd = false;           ///< rates are asked for at t, else their means over the step will do
+  bool willCommit = false;          ///< commit() at this state follows for certain: nothing else is asked for before
 };
 
 /// A force on the nodes that depends on u, v and t, its tangent and its energy. State that lasts over steps (plastic

@@ -13,7 +13,7 @@ namespace dovetail::fem {
 
 /// Motion and its books. A step of length h from t is
 ///
-///     halfKick(h, t + h/2) · motion.drift(h) · evaluate(h) · halfKick(h, t + h) · accept(h)
+///     halfKick(h, t + h/2) · motion.drift(h) · evaluate(h, …, true) · halfKick(h, t + h) · accept(h)
 ///
 /// Works of terms without energy, of supports and of what materials dissipate are booked as kicks do them.
 class BookedMotion {
@@ -25,7 +25,8 @@ public:
 
   /// nodes.f = forces at the present state; whoever couples may add to them before the next kick. Forces that depend on
   /// the velocity see the one that the last forces would lead to.
-  void evaluate(double h, bool withEnergies);
+  /// @param willAccept  whether accept(h) follows with nothing asked for in between
+  void evaluate(double h, bool withEnergies, bool willAccept);
   /// v += a h/2, constrained components as at `time`. @param books  whether works are booked
   /// @return false if a velocity is not finite any more
   bool halfKick(double h, double time, bool books);
@@ -50,7 +51,7 @@ public:
   ImpulseLedger impulses;  ///< of supports and of the terms but the elements, in kicks that are booked
 
 private:
-  void findForces(double h, bool withEnergies);
+  void findForces(double h, bool withEnergies, bool willAccept);
   void accelerate(double h);
   bool push(double h, double time);
   void giveImpulses(double h, bool changes);

@@ -13,7 +13,7 @@ namespace dovetail::fem {
 
 /// A velocity Verlet step is
 ///
-///     kick(dt/2) · drift(dt) · forces(dt) · kick(dt/2) · commit(dt)
+///     kick(dt/2) · drift(dt) · forces(dt, withEnergy, true) · kick(dt/2) · commit(dt)
 ///
 /// with whatever else acts on the nodes added to model.nodes.f after forces(), or kicked on its own. The state is the
 /// model's; here are caches only. Terms and constraints are read when it is made.
@@ -30,8 +30,10 @@ public:
   const ModelMass& mass() const;
 
   /// nodes.f = Σ forces of the terms at u, v, t. @param dt  length of the step that ends here, s
+  /// @param willCommit  whether commit(dt) follows with nothing asked for in between: some materials are then spared a
+  ///                    copy of their state
   /// @return their stored energy, J, if `withEnergy`, else 0
-  double forces(double dt, bool withEnergy = false);
+  double forces(double dt, bool withEnergy = false, bool willCommit = false);
   /// Of the last forces(), by terms: energy, J (if asked for), and force, N, of all but elements that store an energy;
   /// empty for these.
   std::span<const double> energies() const;
