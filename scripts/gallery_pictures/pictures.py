@@ -96,7 +96,9 @@ PICTURES = (
     Picture("plucked", "The tip, which its support has let go, swings: 6 mm down in its second period.", frame=0.6,
             draw="--warp 5 --solids displacement", lines=('"stages"',)),
     Picture("shear-band", "The shear has gathered in a band from the weak spot on the left; its width is that of the gradient.",
-            draw="--azimuth 0 --elevation 90 --solids plastic_strain", lines=('"gradient"', '"material"', '"supports"')),
+            draw="--solids shear_strain --size 700 800", lines=('"gradient"', '"material"', '"supports"')),
+    Picture("biaxial-cells", "A band of shear between the plates: no law of the solid says so, the discs at its points do.",
+            draw="--solids shear_strain --size 700 800", long="a minute", lines=('"cells"', '"material"', '"loads"')),
     Picture("frequencies", "The third mode of a cantilever, the second about its softer axis: one place along it stands still.",
             draw="--mode 3", lines=('"stages"',)),
 )
