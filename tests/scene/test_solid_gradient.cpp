@@ -124,5 +124,12 @@ TEST(SolidGradient, NarrowBandsAndElementsThatLockAreTold) {
   expectParts(warningsOf(sheet(gradient + ", " + pressed, "quad4")), {"too stiff in bands", "quad8"});
 }
 
+TEST(SolidGradient, EndsAtTiesWhichIsTold) {
+  const std::string tied = R"(, "sets": [{"name": "some", "place": "box", "box": [[0.9, 0.9, -1], [1.1, 1.1, 1]]}],
+      "ties": [{"nodes": "some", "faces": "x-", "tolerance": 2}], "supports": [{"on": "y-"}])";
+  expectParts(warningsOf(sheet(reduced + tied)), {"gradient", "soil", "ends at its ties"});
+  EXPECT_EQ(warningsOf(sheet(R"("formulation": "reduced")" + tied)).find("ends at its ties"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test

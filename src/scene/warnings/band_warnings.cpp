@@ -101,6 +101,11 @@ void lookAtBands(const Built& built, const Scene& scene, std::size_t number, Lin
                     " of its elements: take elements of " + rounded(width / elementsPerBand) +
                     " m or less, or a gradient modulus of " +
                     rounded(solid.gradient->modulus * std::pow(elementsPerBand * length / width, 2)) + " N.");
+  if (solid.gradient && !solid.ties.empty())
+    lines.push_back(
+        "The gradient of " + quoted(solid.name) +
+        " ends at its ties: a band along them is half as wide as elsewhere. Join the nodes of its parts, or "
+        "tie them where nothing softens.");
   const bool softens = !std::isinf(fewest) || (ofCells && (solid.gradient || fem::dimensionOf(mesh) == 2));
   if (softens && locksInBands(solid, mesh))
     lines.push_back(quoted(solid.name) + " has " + fem::name(mesh.groups.front().shape) +
