@@ -23,8 +23,8 @@ inline Eigen::Matrix3d matrixAt(const std::vector<double>& values, std::size_t p
 
 /// Three cells of 60 discs at rest under 100 kPa.
 inline const std::vector<rve::Rve>& threeCells() {
-  static const std::vector<rve::Rve> cells{rve::pressedDiscs(60, 1), rve::pressedDiscs(60, 2),
-                                           rve::pressedDiscs(60, 3)};
+  static const std::vector<rve::Rve> cells{rve::pressedDiscs(60, 4), rve::pressedDiscs(60, 5),
+                                           rve::pressedDiscs(60, 6)};
   return cells;
 }
 inline std::vector<rve::Rve> oneCell() { return {threeCells()[0]}; }

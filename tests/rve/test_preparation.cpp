@@ -35,6 +35,22 @@ TEST(Preparation, SpheresArePreparedAlike) {
   EXPECT_GT(balance(cell).coordination, 5.0);
 }
 
+/// With hardly more contacts than hold them, discs yield in shear and their pressures differ until the servo hurries.
+TEST(Preparation, PackingsThatYieldInShearAreNotWaitedFor) {
+  constexpr double stiffness = 1e4, thickness = 1e-3, wanted = 1e-4 * stiffness / thickness;
+  Rve cell = randomCell({.count = 189,
+                         .sizes = dem::UniformSizes{0.3e-3, 0.45e-3},
+                         .thickness = thickness,
+                         .density = 2000.0,
+                         .seed = 15},
+                        {.stiffness = stiffness, .tangential = 0.2, .friction = 0.4});
+  compress(cell, {.pressure = {wanted, wanted, 0.0}, .friction = 0.0, .steps = 300000});
+  const Eigen::Matrix3d now = stress(cell).cauchy;
+  EXPECT_NEAR(-now(0, 0), wanted, 1e-3 * wanted);
+  EXPECT_NEAR(-now(1, 1), wanted, 1e-3 * wanted);
+  EXPECT_LE(balance(cell).unbalanced, 1e-4);
+}
+
 TEST(Preparation, FabricIsThatOfArraysAndTurnsWithTheCell) {
   EXPECT_LT((fabric(squareArray(6)) - Eigen::Vector3d(0.5, 0.5, 0.0).asDiagonal().toDenseMatrix()).norm(), 1e-14);
   const Rve start = pressedDiscs(80);

@@ -24,6 +24,7 @@ Servo servoFor(const Rve& cell, const CompressionOptions& settings) {
   Servo servo{.stress = Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN()),
               .pressure = settings.pressure.x,
               // A wave crosses the cell in some ten steps a grain; answers that are slower than that do not overshoot.
+              // The servo grows faster where the cell is softer.
               .lag = 20.0 * std::pow(static_cast<double>(cell.size()), 1.0 / cell.dimension()),
               .inertialNumber = settings.inertialNumber,
               .tolerance = settings.tolerance,

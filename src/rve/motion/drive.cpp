@@ -15,7 +15,6 @@ namespace dovetail::rve {
 namespace {
 
 constexpr const char* where = "drive of a cell";
-constexpr double lag = 10.0;       // of the servo: cells whose grains touch answer at once
 constexpr double learning = 1e-2;  // of the strains that come with that of the test, per step
 constexpr double atMost = 4.0;     // of these, over that of the test
 
@@ -55,7 +54,7 @@ public:
       : cell_(cell), how_(how), settings_(settings), start_(cell.state.F) {
     servo_ = {.stress = how.stress,
               .pressure = std::max(stress(cell).pressure, std::numeric_limits<double>::min()),
-              .lag = lag,
+              .lag = leastLag,
               .inertialNumber = atMost * settings.inertialNumber,
               .tolerance = settings.tolerance,
               .damping = settings.damping,

@@ -10,6 +10,9 @@
 
 namespace dovetail::rve {
 
+/// Lag, in steps, that cells whose grains touch do not overshoot by: they answer at once.
+constexpr double leastLag = 10.0;
+
 struct Servo {
   Eigen::Matrix3d stress;        ///< Cauchy, wanted, Pa; NaN where none is held
   double pressure = 0.0;         ///< of mean contacts, by which stiffness and speed are told, > 0, Pa
@@ -34,7 +37,8 @@ double strainOfStep(const Rve& cell, const Servo& servo, double inertialNumber, 
 /// inertial number allows; 0 in the others.
 Eigen::Matrix3d servoStrain(const Rve& cell, const Servo& servo, double dt);
 
-/// Strains the cell until the stresses are those wanted, at rest.
+/// Strains the cell until the stresses are those wanted, at rest. What stays missing is made good ever faster, down to
+/// the least lag.
 /// @param taken  steps, so far and on return
 /// @throws NumericalError if it gives up, or as step
 void holdStress(Rve& cell, const Servo& servo, std::int64_t& taken);
