@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
     std::string only = "all";
     program::Options o("cell_figures", "Published figures on cells of grains, beside the results of this program.");
     o.flag("--quick", quick, "fewer packings, smaller solids");
-    o.word("--only WORD", only, "all|" + names(), "one figure");
+    o.word("--only", only, "all|" + names(), "one figure");
     return !o.parse(argc, argv) || run(quick, only);
   });
 }
