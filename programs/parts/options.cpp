@@ -124,7 +124,9 @@ void Options::take(const std::vector<std::string>& words) {
     option.written.push_back(value);
   }
   for (const Option& option : all_)
-    if (option.needed && option.written.empty()) refuse(option.name + " is missing");
+    if (option.needed && option.written.empty())
+      refuse(option.name + " is missing",
+             option.value.find('|') == std::string::npos ? "" : "take one of " + option.value + ", or ");
 }
 
 Option& Options::rowOf(const std::string& word, bool argument) {
