@@ -38,7 +38,7 @@ double strainBeyond(const SoftLayer& l, double drop, double y) {
 
 class Layer {
 public:
-  Layer(const SoftLayer& l, fem::ElementShape shape, int elementsPerBand)
+  Layer(const SoftLayer& l, fem::ElementShape shape, double elementsPerBand)
       : layer_(l), height_(l.bandsAcross * exactBand(l).width) {
     const int count = static_cast<int>(std::lround(l.bandsAcross * elementsPerBand));
     mesh_ = fem::boxOf(shape, {1, count, 1}, {0.0, -0.5 * height_, 0.0}, {height_ / count, 0.5 * height_, 1.0});
@@ -110,7 +110,7 @@ Band exactBand(const SoftLayer& l) {
   return {width, (1.0 / l.softening + 1.0 / l.shear) * (width + 2.0 * std::sqrt(l.modulus / l.shear))};
 }
 
-Band bandOfElements(const SoftLayer& l, fem::ElementShape shape, int elementsPerBand) {
+Band bandOfElements(const SoftLayer& l, fem::ElementShape shape, double elementsPerBand) {
   Layer layer(l, shape, elementsPerBand);
   layer.solve(0.25);
   const double motion = layer.motion(), drop = layer.drop();

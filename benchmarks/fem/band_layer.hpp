@@ -23,6 +23,6 @@ struct Band {
 Band exactBand(const SoftLayer& layer);
 /// By one column of quad4, or of quad8 with 2 × 2 points, so many to the width of the exact band; statics at drops of
 /// a quarter and half of the peak.
-Band bandOfElements(const SoftLayer& layer, fem::ElementShape shape, int elementsPerBand);
+Band bandOfElements(const SoftLayer& layer, fem::ElementShape shape, double elementsPerBand);
 
 }  // namespace dovetail::benchmark

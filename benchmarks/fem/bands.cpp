@@ -42,6 +42,19 @@ void showLayer() {
     }
 }
 
+/// 118 mm high, sheared, with a band of 13 to 16 mm in 12 elements.
+void showLiu2015() {
+  constexpr double height = 118.0, width = 14.5;
+  const SoftLayer layer{.bandsAcross = height / width};
+  const double millimetre = width / exactBand(layer).width;
+  std::printf("\n| Liu et al. 2015, sec. 3.4: elements of 118 mm | a band of 13 to 16 mm | opening |\n|---|---|---|\n");
+  for (const int rows : {12, 24, 41, 82}) {
+    const Band found = bandOfElements(layer, fem::ElementShape::quad8, rows / layer.bandsAcross);
+    std::printf("| %d | %.1f | %+.2f %% |\n", rows, millimetre * found.width,
+                100.0 * (found.opening / exactBand(layer).opening - 1.0));
+  }
+}
+
 void showCourse(const BandBiaxial& s, std::FILE* csv) {
   const BiaxialCourse course = pressTogether(s, {{softSand({})}});
   std::printf("| %s %d × %d%s | %g |", fem::name(s.shape), s.across, 2 * s.across, s.skew > 0.0 ? " skew" : "",
@@ -123,7 +136,7 @@ int main(int argc, char** argv) {
                                                               std::fclose);
     if (!csv && !file.empty()) throw InputError("the file cannot be written", file, "give another name");
     if (shows("waves")) showWaves();
-    if (shows("layer")) showLayer();
+    if (shows("layer")) showLayer(), showLiu2015();
     if (shows("biaxial"))
       showBiaxial(quick, end, elements == "quad4" ? fem::ElementShape::quad4 : fem::ElementShape::quad8, csv.get());
     if (shows("scatter")) showScatter();
