@@ -69,8 +69,8 @@ public:
   }
 
   void stepUnder(const NodalLoad& load) override {
+    kickTouched(load, 0.5 * macroStep());  // first here and last there: own forces work at the same velocities
     halfKick(model_->t + 0.5 * macroStep());
-    kickTouched(load, 0.5 * macroStep());
     solid_->motion.drift(macroStep());
     inStep_ = true;
     findForces(true);

@@ -1,43 +1,23 @@
 // Solids whose points have cells of grains.
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 
+#include "cell_blocks.hpp"
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/hierarchical/cell_field.hpp"
 #include "dovetail/rve/packing.hpp"
 #include "dovetail/rve/rve_archive.hpp"
-#include "loaded_bars.hpp"
+#include "dovetail/solid_io/solid_files.hpp"
 #include "run/cell_fields.hpp"
+#include "run/frame_fields.hpp"
 
 namespace dovetail::scene::test {
 namespace {
 
-/// @param keys  further keys of the cells, with a comma behind
-std::string discs(const std::string& keys = "") {
-  return R"("cells": [{"name": "sand", "grains": "discs", "count": 60, "radius": {"smallest": 3e-3, "largest": 7e-3}, )" +
-         keys + R"("density": 2650, "thickness": 0.1, "contact": {"law": "linear", "modulus": 6e8, "friction": 0.5},
-      "prepare": [{"pressure": 1e5, "friction": 0.2}]}],)";
-}
-const std::string sides = R"("loads": [{"on": "x+", "type": "pressure", "pressure": 1e5}])";
-const std::string frame = R"("supports": [{"on": "x-", "components": ["x"]}, {"on": "y-", "components": ["y"]},
-    {"on": "y+", "components": ["y"], "displacement": [0, "-2e-4*t", 0]}])";
-
-/// A block of 0.1 × 0.2 m of these cells.
-std::string block(const std::string& keys, const std::string& mesh = R"("cell": "quad4", "cells": [1, 1, 1])",
-                  const std::string& material = R"({"law": "cells", "cells": "sand"})") {
-  return R"("solids": [{"name": "block", "mesh": "box", "gravity": false, )" + mesh +
-         R"(, "box": [[0, 0, 0], [0.1, 0.2, 0.1]], "material": )" + material + ", " + keys + "}],";
-}
-const std::string runs = R"("steps": {"safety": 0.8}, "stages": [{"do": "run", "time": 0.02}])";
-const std::string loads = R"("steps": {"dt": 1e-4}, "stages": [{"do": "statics", "load_steps": 2, "time": 1}])";
-
-Scene blockScene(const std::string& stages, const std::string& cells = discs(),
-                 const std::string& keys = frame + ", " + sides) {
-  return sceneFromText("{" + cells + block(keys) + stages + "}", "s.json", "/");
-}
 std::string refusalOfStart(const Scene& scene) {
   try {
     started(scene);
@@ -121,6 +101,55 @@ TEST(SceneCells, WhatCannotBeIsRefused) {
   EXPECT_THROW(with(R"({"law": "cells", "cells": "sand", "density": 1000})", all, plane), InputError);
 }
 
+/// Elements of a law without initial stress do not hold that of cells beside them.
+TEST(SceneCells, HoldNoOtherLaws) {
+  const auto refusalBeside = [](const std::string& other) {
+    return refusalOfStart(
+        sceneFromText("{" + discs() +
+                          block(frame + ", " + sides +
+                                    R"(, "sets": [{"name": "low", "place": "box", "box": [[-1, -1, -1], [1, 0.11, 1]]}],
+        "regions": [{"elements": "low", "material": )" +
+                                    other + "}]",
+                                R"("cell": "quad4", "cells": [1, 2, 1])") +
+                          runs + "}",
+                      "s.json", "/"));
+  };
+  EXPECT_EQ(refusalBeside(R"({"law": "cells", "cells": "sand"})"), "");
+  expectParts(refusalBeside(R"({"law": "neo-Hookean", "youngs_modulus": 1e8, "poisson_ratio": 0.2, "density": 2000})"),
+              {"nothing holds at node", "regions have cells of one pressure", "without stress"});
+}
+
+/// What ties pass on holds the stress too: two layers that meet in the middle.
+TEST(SceneCells, AreHeldByTies) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "dovetail_tied_cells";
+  std::filesystem::create_directories(folder);
+  fem::SolidMesh both = fem::boxOf(fem::ElementShape::quad4, {1, 1, 1}, {}, {0.1, 0.1, 0.1});
+  const fem::SolidMesh upper = fem::boxOf(fem::ElementShape::quad4, {2, 1, 1}, {0, 0.1, 0}, {0.1, 0.2, 0.1});
+  const int offset = static_cast<int>(both.X.size());
+  std::vector<int> foot = upper.nodeSets.at("y-");
+  for (int& n : foot) n += offset;
+  both.X.insert(both.X.end(), upper.X.begin(), upper.X.end());
+  for (const int n : upper.groups[0].node) both.groups[0].node.push_back(n + offset);
+  both.nodeSets = {{"foot", foot}};
+  both.faceSets = {{"head", both.faceSets.at("y+")}};
+  solid_io::writeSolid(both, folder / "two.inp");
+  const auto refusal = [&](const std::string& ties) {
+    return refusalOfStart(
+        sceneFromText("{" + discs() +
+                          R"("solids": [{"name": "block", "mesh": "file", "file": "two.inp", "gravity": false,
+        "material": {"law": "cells", "cells": "sand"},
+        "sets": [{"name": "low", "place": "side", "side": "y-"}, {"name": "top", "place": "side", "side": "y+"},
+                 {"name": "left", "place": "side", "side": "x-"}, {"name": "right", "place": "side", "side": "x+"}],
+        "supports": [{"on": "low", "components": ["y"]}, {"on": "top", "components": ["y"]},
+                     {"on": "left", "components": ["x"]}, {"on": "right", "components": ["x"]}])" +
+                          ties + "}]," + runs + "}",
+                      "s.json", folder));
+  };
+  EXPECT_EQ(refusal(R"(, "ties": [{"nodes": "foot", "faces": "head", "tolerance": 1e-6}])"), "");
+  expectParts(refusal(""), {"nothing holds at node"});
+  std::filesystem::remove_all(folder);
+}
+
 TEST(SceneCells, ThatNoSolidHasAreNotMade) {
   const Built built = build(sceneFromText("{" + discs() +
                                               R"("solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 1],
@@ -189,25 +218,34 @@ TEST(CellFields, StrainsOfASimpleShear) {
   Built built = started(scene);
   fem::Nodes& nodes = built.run->solid(0).nodes();
   for (std::size_t n = 0; n < nodes.X.size(); ++n) nodes.u[n] = {1e-3 * nodes.X[n].y, 0.0, 0.0};
-  const auto fields = elementStrains(*built.run->solid(0).model, 2);
-  ASSERT_EQ(fields.size(), 3U);
-  EXPECT_NEAR(fields[0].values[1], 5e-4, 1e-9);
-  EXPECT_NEAR(fields[1].values[0], 0.0, 1e-12);
-  EXPECT_NEAR(fields[2].values[1], 1e-3, 1e-9);
+  const auto strains = [&] {
+    std::map<std::string, std::vector<double>> found;
+    for (const MeshField& field : solidFields(*built.run->solid(0).model, 2, scene.solids[0], {"strain"}))
+      found[field.name] = field.values;
+    return found;
+  };
+  EXPECT_NEAR(strains().at("strain")[1], 5e-4, 1e-9);
+  EXPECT_NEAR(strains().at("volume_strain")[0], 0.0, 1e-12);
+  EXPECT_NEAR(strains().at("shear_strain")[1], 1e-3, 1e-9);
+  EXPECT_NEAR(strains().at("turn")[2], -5e-4, 1e-9);
   // A turn is no strain.
   const double c = std::cos(0.5), s = std::sin(0.5);
   for (std::size_t n = 0; n < nodes.X.size(); ++n) {
     const Vec3& X = nodes.X[n];
     nodes.u[n] = {c * X.x - s * X.y - X.x, s * X.x + c * X.y - X.y, 0.0};
   }
-  EXPECT_NEAR(elementStrains(*built.run->solid(0).model, 2)[2].values[0], 0.0, 1e-12);
+  EXPECT_NEAR(strains().at("shear_strain")[0], 0.0, 1e-12);
+  EXPECT_NEAR(strains().at("turn")[2], 0.5, 1e-12);
 }
 
 TEST(CellFields, MeansOfCells) {
   const Built built = started(blockScene(runs, discs(R"("number": 2, )")));
   const fem::Model& model = *built.run->solid(0).model;
   int dimension = 0;
-  const CellMeasures mean = meanOfCells(model, nullptr, dimension);
+  const std::vector<CellPoint> points = cellPoints(model);
+  ASSERT_EQ(points.size(), 4U);
+  EXPECT_EQ(points[3].point, 3);
+  const CellMeasures mean = meanOf(points, dimension);
   EXPECT_EQ(dimension, 2);
   EXPECT_NEAR(mean.pressure(2), 1e5, 2e2);
   const std::vector<rve::Rve>& cells = built.cells.at("sand");
@@ -220,12 +258,11 @@ TEST(CellFields, MeansOfCells) {
   const double shear = std::hypot(0.5 * (cauchy(0, 0) - cauchy(1, 1)), cauchy(0, 1));
   EXPECT_NEAR(mean.stressRatio(2), -2.0 * shear / (cauchy(0, 0) + cauchy(1, 1)), 1e-9);
   EXPECT_NEAR(mean.voidRatio, e, 1e-12);
-  const std::vector<MeshField> fields = elementCells(model, 1);
-  ASSERT_EQ(fields.size(), 4U);
-  EXPECT_NEAR(fields[0].values[0], e, 1e-12);
-  EXPECT_NEAR(fields[3].values[0] + fields[3].values[4], 1.0, 1e-12);  // of fabric: trace 1
-  const Vec3 corner{0.0, 0.0, 0.0};
-  EXPECT_NEAR(meanOfCells(model, &corner, dimension).voidRatio, 1.0 / rve::solidFraction(cells[0]) - 1.0, 1e-12);
+  std::map<std::string, std::vector<double>> fields;
+  for (const MeshField& field : solidFields(model, 1, Solid{}, {"cells"})) fields[field.name] = field.values;
+  EXPECT_NEAR(fields.at("void_ratio")[0], e, 1e-12);
+  EXPECT_NEAR(fields.at("fabric")[0] + fields.at("fabric")[4], 1.0, 1e-12);  // trace 1
+  EXPECT_NEAR(meanOf({nearestCell(points, {})}, dimension).voidRatio, 1.0 / rve::solidFraction(cells[0]) - 1.0, 1e-12);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "../../src/scene/run/frame_fields.hpp"
@@ -38,7 +40,8 @@ TEST(FrameFields, StressIsThatOfTheLaw) {
   for (double& value : F) value += small(random);
   fem::Model& model = *built.run->solid(0).model;
   deform(model.nodes, F);
-  const CellStress stress = cellStress(model, 8);
+  std::map<std::string, std::vector<double>> found;
+  for (const MeshField& field : solidFields(model, 8, Solid{}, {"stress"})) found[field.name] = field.values;
   // S = λ tr E 1 + 2 μ E, σ = F S Fᵀ/J
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const Matrix f = Eigen::Map<const Matrix>(F.data()), E = 0.5 * (f.transpose() * f - Matrix::Identity());
@@ -46,10 +49,34 @@ TEST(FrameFields, StressIsThatOfTheLaw) {
   const Matrix sigma = f * (lambda * E.trace() * Matrix::Identity() + 2.0 * mu * E) * f.transpose() / f.determinant();
   const Matrix deviator = sigma - sigma.trace() / 3.0 * Matrix::Identity();
   for (std::size_t e = 0; e < 8; ++e) {
-    EXPECT_LT((Eigen::Map<const Matrix>(&stress.cauchy[9 * e]) - sigma).norm(), 1e-12 * sigma.norm()) << e;
-    EXPECT_NEAR(stress.pressure[e], -sigma.trace() / 3.0, 1e-12 * sigma.norm());
-    EXPECT_NEAR(stress.vonMises[e], std::sqrt(1.5) * deviator.norm(), 1e-12 * sigma.norm());
+    EXPECT_LT((Eigen::Map<const Matrix>(&found["stress"][9 * e]) - sigma).norm(), 1e-12 * sigma.norm()) << e;
+    EXPECT_NEAR(found["pressure"][e], -sigma.trace() / 3.0, 1e-12 * sigma.norm());
+    EXPECT_NEAR(found["von_mises"][e], std::sqrt(1.5) * deviator.norm(), 1e-12 * sigma.norm());
   }
+}
+
+/// A turn of a stretched body: its axis and angle, and F itself at every point.
+TEST(FrameFields, PointsHaveDeformationAndTurn) {
+  const Built built = build(sceneOf(block));
+  fem::Model& model = *built.run->solid(0).model;
+  const Eigen::Vector3d turn = Eigen::Vector3d(0.3, -0.5, 0.2);
+  using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  Matrix stretch;
+  stretch << 1.1, 0.05, 0.0, 0.05, 0.9, 0.02, 0.0, 0.02, 1.2;
+  const Matrix F = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * stretch;
+  std::array<double, 9> rows{};
+  Eigen::Map<Matrix>(rows.data()) = F;
+  deform(model.nodes, rows);
+  std::map<std::string, std::vector<double>> found;
+  for (const MeshField& field : pointFields(pointsOf(model), Solid{}, {"stress", "strain"}))
+    found[field.name] = field.values;
+  ASSERT_EQ(found.at("deformation_gradient").size(), 9U * 64U);
+  for (std::size_t p = 0; p < 64; ++p) {
+    EXPECT_LT((Eigen::Map<const Matrix>(&found["deformation_gradient"][9 * p]) - F).norm(), 1e-12);
+    EXPECT_LT((Eigen::Map<const Eigen::Vector3d>(&found["turn"][3 * p]) - turn).norm(), 1e-12);
+    EXPECT_NEAR(found["volume_strain"][p], std::log(F.determinant()), 1e-12);
+  }
+  EXPECT_EQ(found.at("von_mises").size(), 64U);
 }
 
 TEST(FrameFields, PlasticStrainIsWhatWasDissipated) {
@@ -63,7 +90,10 @@ TEST(FrameFields, PlasticStrainIsWhatWasDissipated) {
     deform(model.nodes, {1, 1e-3 * step, 0, 0, 1, 0, 0, 0, 1});
     for (const auto& term : model.terms) dissipated += term->commit(model.nodes, {.dt = 1.0});
   }
-  const std::vector<MeshField> history = cellHistory(model, 8, scene.solids[0]);
+  const Points points = pointsOf(model);
+  std::vector<MeshField> history;
+  for (const MeshField& field : historyAt(points, scene.solids[0]))
+    history.push_back(meansOf(points, field, 8, Volumes::reference));
   ASSERT_EQ(history.size(), 2U);
   EXPECT_EQ(history[0].name, "plastic_strain");
   double sum = 0.0;
@@ -73,7 +103,8 @@ TEST(FrameFields, PlasticStrainIsWhatWasDissipated) {
   }
   EXPECT_GT(sum, 1.0);
   EXPECT_NEAR(sum, dissipated, 1e-3 * dissipated);  // of second order in the strain
-  EXPECT_TRUE(cellHistory(*build(sceneOf(block)).run->solid(0).model, 8, sceneOf(block).solids[0]).empty());
+  const Built elastic = build(sceneOf(block));
+  EXPECT_TRUE(historyAt(pointsOf(*elastic.run->solid(0).model), sceneOf(block).solids[0]).empty());
 }
 
 const std::string grains = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],

@@ -148,22 +148,28 @@ void requireHeld(const coupling::SolidSide& side, const Solid& solid, double pre
     term->addForces(nodes, {.t = side.model->t}, all);
     if (dynamic_cast<const fem::Solid*>(term.get())) term->addForces(nodes, {.t = side.model->t}, inner);
   }
+  const fem::DofMap& dofs = side.mass->dofs();
+  std::vector<double> free(dofs.size());  // with what ties pass on
+  dofs.reduce(all, free);
   double largest = 0.0, worst = 0.0;
   std::size_t at = 0;
   for (const Vec3& f : inner) largest = std::max({largest, std::abs(f.x), std::abs(f.y), std::abs(f.z)});
-  for (std::size_t n = 0; n < all.size(); ++n)
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double free = std::abs(all[n][static_cast<int>(c)]);
-      if (side.mass->dofs().role(3 * n + c) == fem::Role::free && free > worst) worst = free, at = n;
-    }
+  for (std::size_t q = 0; q < free.size(); ++q) {
+    const auto dof = static_cast<std::size_t>(dofs.freeDofs()[q]);
+    if (dofs.role(dof) == fem::Role::free && std::abs(free[q]) > worst) worst = std::abs(free[q]), at = dof / 3;
+  }
   if (worst <= most * largest) return;
   const Vec3& X = nodes.X[at];
-  throw InputError("the cells of \"" + solid.name + "\" start under a pressure of " + rounded(pressure) +
-                       " Pa, which nothing holds at node " + std::to_string(at) + " (" + formatNumber(X.x) + ", " +
-                       formatNumber(X.y) + ", " + formatNumber(X.z) + ")",
-                   solid.where,
-                   "give each of its faces without a support a load {\"type\": \"pressure\", \"pressure\": \"" +
-                       rounded(1e-3 * pressure) + " kPa\"}");
+  throw InputError(
+      "the cells of \"" + solid.name + "\" start under a pressure of " + rounded(pressure) +
+          " Pa, which nothing holds at node " + std::to_string(at) + " (" + formatNumber(X.x) + ", " +
+          formatNumber(X.y) + ", " + formatNumber(X.z) + ")",
+      solid.where,
+      solid.regions.empty()
+          ? "give each of its faces without a support a load {\"type\": \"pressure\", \"pressure\": \"" +
+                rounded(1e-3 * pressure) + " kPa\"}"
+          : "let all its regions have cells of one pressure (elements of other laws start without stress), "
+            "and each of its faces a support or a load of that pressure");
 }
 
 }  // namespace

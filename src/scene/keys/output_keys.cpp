@@ -46,8 +46,8 @@ void describe(Fields& f, Probe& v) {
           v.of, kinds);
 }
 void describe(Fields& f, Output& v) {
-  static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts", "bonds",
-                                             "solids", "stress", "strain", "cells",   "history",  "walls"};
+  static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts", "bonds", "solids",
+                                             "points", "stress", "strain", "cells",   "history",  "walls"};
   f.where(v.where);
   f.number({"series", "interval of rows of energies and momenta"}, v.series, positive(unit::time));
   f.list({"probes", "further columns of the series"}, v.probes);

@@ -22,6 +22,7 @@ const std::array hues{
     Hue{"plastic_strain", "plastic strain", ""},
     Hue{"shear_strain", "shear strain", ""},
     Hue{"volume_strain", "volume strain", "", true},
+    Hue{"turn", "turn", "rad"},
     Hue{"void_ratio", "void ratio", ""},
     Hue{"coordination", "contacts per grain", ""},
     Hue{"sliding", "fraction of sliding contacts", ""},

@@ -1,28 +1,19 @@
 #include "cell_fields.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <cmath>
-#include <limits>
+#include <algorithm>
+#include <functional>
 
+#include "build/parts.hpp"
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/hierarchical/cell_field.hpp"
 #include "dovetail/rve/rve_archive.hpp"
-#include "point_means.hpp"
 #include "warnings/warnings.hpp"
 
 namespace dovetail::scene {
 
 namespace {
-
-using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-
-/// ½ ln F Fᵀ
-Eigen::Matrix3d logarithmicStrain(const Eigen::Matrix3d& F) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> b(F * F.transpose());
-  return b.eigenvectors() * (0.5 * b.eigenvalues().array().log()).matrix().asDiagonal() * b.eigenvectors().transpose();
-}
 
 CellMeasures measured(const rve::Rve& cell) {
   const rve::Balance balance = rve::balance(cell);
@@ -31,18 +22,6 @@ CellMeasures measured(const rve::Rve& cell) {
           .sliding = balance.contacts > 0 ? static_cast<double>(balance.sliding) / balance.contacts : 0.0,
           .fabric = rve::fabric(cell),
           .cauchy = rve::stress(cell).cauchy};
-}
-
-/// Calls act(element, X, volume, cell) for all points with a cell.
-template <class Act>
-void forEachCell(const fem::Model& model, Act&& act) {
-  forEachSolid(model, [&](const fem::Solid& solid, const fem::Solid::Sample& sample) {
-    const fem::PointField* const field = solid.field();
-    if (!field) return;
-    for (std::size_t p = 0; p < sample.element.size(); ++p)
-      hierarchical::visitCell(
-          *field, p, [&](const rve::Rve& cell) { act(sample.element[p], sample.X[p], sample.volume[p], cell); });
-  });
 }
 
 }  // namespace
@@ -68,57 +47,68 @@ double CellMeasures::stressRatio(int dimension) const {
   return most + least > 0.0 ? (most - least) / (most + least) : 0.0;
 }
 
-std::vector<MeshField> elementStrains(const fem::Model& model, std::size_t elements) {
-  Means strain(elements, 9), volume(elements, 1), shear(elements, 1);
-  forEachSolid(model, [&](const fem::Solid&, const fem::Solid::Sample& sample) {
-    for (std::size_t p = 0; p < sample.element.size(); ++p) {
-      const RowMajor e = logarithmicStrain(Eigen::Map<const RowMajor>(&sample.F[9 * p]));
-      const double trace = e.trace();
-      const double gamma = std::sqrt(2.0) * (e - trace / 3.0 * RowMajor::Identity()).norm();
-      strain.add(sample.element[p], sample.volume[p], e.data());
-      volume.add(sample.element[p], sample.volume[p], &trace);
-      shear.add(sample.element[p], sample.volume[p], &gamma);
-    }
-  });
-  return {{"strain", strain.take(), 9}, {"volume_strain", volume.take()}, {"shear_strain", shear.take()}};
-}
-
-std::vector<MeshField> elementCells(const fem::Model& model, std::size_t elements) {
-  Means scalars[] = {{elements, 1}, {elements, 1}, {elements, 1}};
-  Means fabric(elements, 9);
+std::vector<MeshField> cellsAt(const Points& points) {
+  std::vector<MeshField> fields{{"void_ratio", {}, 1, false},
+                                {"coordination", {}, 1, false},
+                                {"sliding", {}, 1, false},
+                                {"fabric", {}, 9, false}};
+  for (MeshField& field : fields) field.values.resize(points.size() * static_cast<std::size_t>(field.components));
   bool any = false;
-  forEachCell(model, [&](int element, const Vec3&, double weight, const rve::Rve& cell) {
-    const CellMeasures now = measured(cell);
-    const RowMajor rows = now.fabric;
-    scalars[0].add(element, weight, &now.voidRatio);
-    scalars[1].add(element, weight, &now.coordination);
-    scalars[2].add(element, weight, &now.sliding);
-    fabric.add(element, weight, rows.data());
-    any = true;
+  std::size_t number = 0;
+  forEachPoint(points, [&](const Points::Part& part, std::size_t p) {
+    const std::size_t at = number++;
+    if (!part.solid->field()) return;
+    hierarchical::visitCell(*part.solid->field(), p, [&](const rve::Rve& cell) {
+      const CellMeasures now = measured(cell);
+      fields[0].values[at] = now.voidRatio;
+      fields[1].values[at] = now.coordination;
+      fields[2].values[at] = now.sliding;
+      Eigen::Map<Eigen::Matrix3d>(&fields[3].values[9 * at]) = now.fabric;  // symmetric
+      any = true;
+    });
   });
-  if (!any) return {};
-  return {{"void_ratio", scalars[0].take()},
-          {"coordination", scalars[1].take()},
-          {"sliding", scalars[2].take()},
-          {"fabric", fabric.take(), 9}};
+  return any ? fields : std::vector<MeshField>{};
 }
 
-CellMeasures meanOfCells(const fem::Model& model, const Vec3* at, int& dimension) {
-  CellMeasures sum;
-  double weights = 0.0, nearest = std::numeric_limits<double>::infinity();
-  forEachCell(model, [&](int, const Vec3& X, double volume, const rve::Rve& cell) {
-    dimension = cell.dimension();
-    if (!at) {
-      sum += measured(cell) * volume;
-      weights += volume;
-    } else if (const double distance = squaredNorm(X - *at); distance < nearest) {
-      sum = measured(cell);
-      weights = 1.0;
-      nearest = distance;
-    }
+std::vector<CellPoint> cellPoints(const fem::Model& model) {
+  std::vector<CellPoint> cells;
+  int last = -1, point = 0;
+  forEachPoint(pointsOf(model), [&](const Points::Part& part, std::size_t p) {
+    const fem::Solid::Sample& sample = part.sample;
+    point = sample.element[p] == last ? point + 1 : 0;
+    last = sample.element[p];
+    if (part.solid->field() && hierarchical::visitCell(*part.solid->field(), p, [](const rve::Rve&) {}))
+      cells.push_back({part.solid->field(), p, last, point, sample.X[p], sample.volume[p]});
   });
-  if (weights == 0.0) throw InputError("the solid has no cells of grains", "", "leave the probe out");
-  return sum * (1.0 / weights);
+  return cells;
+}
+
+std::vector<CellPoint> cellPointsOf(const std::string& solid, const Built& built) {
+  std::vector<CellPoint> cells = cellPoints(*built.run->solid(solidNamed(solid, *built.run)).model);
+  if (cells.empty())
+    throw InputError("\"" + solid + "\" has no cells of grains", "", "name a solid of cells, or leave this out");
+  return cells;
+}
+
+const CellPoint& nearestCell(const std::vector<CellPoint>& cells, const Vec3& at) {
+  return *std::ranges::min_element(cells, {}, [&](const CellPoint& one) { return squaredNorm(one.X - at); });
+}
+
+void visit(const CellPoint& place, const std::function<void(const rve::Rve&)>& look) {
+  hierarchical::visitCell(*place.field, place.number, look);
+}
+
+CellMeasures meanOf(const std::vector<CellPoint>& cells, int& dimension) {
+  CellMeasures sum;
+  double volume = 0.0;
+  for (const CellPoint& one : cells) {
+    visit(one, [&](const rve::Rve& cell) {
+      dimension = cell.dimension();
+      sum += measured(cell) * one.volume;
+    });
+    volume += one.volume;
+  }
+  return sum * (1.0 / volume);
 }
 
 namespace {
@@ -131,6 +121,12 @@ std::string lineOn(const std::string& name, const std::vector<rve::Rve>& cells) 
          " contacts per grain, pressure " + rounded(rve::stress(first).pressure) + " Pa";
 }
 
+std::size_t bytesOf(const rve::Rve& cell) {
+  ByteWriter state;
+  rve::writeState(cell, cell.state, state);
+  return state.bytes().size();
+}
+
 }  // namespace
 
 std::vector<std::string> linesOnCells(const Built& built) {
@@ -138,20 +134,14 @@ std::vector<std::string> linesOnCells(const Built& built) {
   for (const auto& [name, cells] : built.cells)
     if (!cells.empty()) lines.push_back(lineOn(name, cells));
   for (std::size_t s = 0; s < built.run->solids(); ++s) {
-    std::size_t points = 0, grains = 0, bytes = 0;
-    forEachCell(*built.run->solid(s).model, [&](int, const Vec3&, double, const rve::Rve& cell) {
-      if (points == 0) {
-        ByteWriter state;
-        rve::writeState(cell, cell.state, state);
-        bytes = 2 * state.bytes().size();  // as committed, and as asked
-      }
-      ++points;
-      grains += cell.size();
-    });
-    if (points > 0)
-      lines.push_back("solid \"" + built.run->solid(s).name + "\": " + std::to_string(points) + " points with " +
-                      std::to_string(grains) + " grains, " + rounded(static_cast<double>(bytes * points) / 1048576.0) +
-                      " MiB");
+    const std::vector<CellPoint> cells = cellPoints(*built.run->solid(s).model);
+    if (cells.empty()) continue;
+    std::size_t grains = 0, each = 0;
+    for (const CellPoint& one : cells) visit(one, [&](const rve::Rve& cell) { grains += cell.size(); });
+    visit(cells.front(), [&](const rve::Rve& cell) { each = 2 * bytesOf(cell); });  // as committed, and as asked
+    const double bytes = static_cast<double>(each * cells.size());
+    lines.push_back("solid \"" + built.run->solid(s).name + "\": " + std::to_string(cells.size()) + " points with " +
+                    std::to_string(grains) + " grains, " + rounded(bytes / 1048576.0) + " MiB");
   }
   return lines;
 }

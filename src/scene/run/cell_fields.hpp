@@ -1,15 +1,13 @@
-// What frames and probes show of strains, and of cells of grains at the points of solids.
+// What frames and probes show of cells of grains at the points of solids.
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
-#include "frame_fields.hpp"
+#include "dovetail/rve/rve.hpp"
+#include "point_fields.hpp"
 
 namespace dovetail::scene {
-
-/// Means of the points of each element: "strain", the logarithmic one by its principal stretches, nine numbers;
-/// "volume_strain" ln det F; "shear_strain" √(2 e : e) with e its deviator, in simple shear the angle for small ones.
-std::vector<MeshField> elementStrains(const fem::Model& model, std::size_t elements);
 
 /// A cell of grains in a few numbers.
 struct CellMeasures {
@@ -27,14 +25,29 @@ struct CellMeasures {
   double stressRatio(int dimension) const;
 };
 
-/// "void_ratio", "coordination", "sliding" and "fabric" (nine numbers): means of the cells of each element, as they
-/// were accepted last. Empty for solids without cells.
-std::vector<MeshField> elementCells(const fem::Model& model, std::size_t elements);
+/// "void_ratio", "coordination", "sliding" and "fabric" (nine numbers) of the cells as they were accepted last; 0 at
+/// points of other laws. Empty for solids without cells.
+std::vector<MeshField> cellsAt(const Points& points);
 
-/// Mean of all cells of a solid by their volumes, or of the one nearest to a place.
-/// @param dimension  out: 2 of discs, 3 of spheres
-/// @throws InputError if it has none
-CellMeasures meanOfCells(const fem::Model& model, const Vec3* at, int& dimension);
+/// A point of a solid that has a cell of grains.
+struct CellPoint {
+  const fem::PointField* field;
+  std::size_t number;  ///< in the field
+  int element, point;  ///< of the mesh, and within it
+  Vec3 X;              ///< m
+  double volume;       ///< reference, m³
+};
+/// All of a solid, none if it has no cells.
+std::vector<CellPoint> cellPoints(const fem::Model& model);
+/// The same by the solid's name. @throws InputError if there is no such solid, or it has no cells
+std::vector<CellPoint> cellPointsOf(const std::string& solid, const Built& built);
+/// @param cells  at least one
+const CellPoint& nearestCell(const std::vector<CellPoint>& cells, const Vec3& at);
+/// Shows the cell as it was accepted last.
+void visit(const CellPoint& place, const std::function<void(const rve::Rve&)>& look);
+
+/// Mean by the volumes. @param cells  at least one  @param dimension  out: 2 of discs, 3 of spheres
+CellMeasures meanOf(const std::vector<CellPoint>& cells, int& dimension);
 
 /// What cells there are, as prepared, and how many grains and bytes the points of solids have.
 std::vector<std::string> linesOnCells(const Built& built);

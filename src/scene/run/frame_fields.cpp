@@ -1,26 +1,24 @@
 #include "frame_fields.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <span>
+#include <array>
 #include <utility>
 
-#include "build/parts.hpp"
 #include "cell_fields.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
 #include "dovetail/dem/walls/facet_tractions.hpp"
 #include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/fem/laws/plasticity.hpp"
-#include "dovetail/fem/laws/viscosity.hpp"
-#include "point_means.hpp"
 
 namespace dovetail::scene {
 
 namespace {
 
-double determinant(const double* F) {
-  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) + F[2] * (F[3] * F[7] - F[4] * F[6]);
+bool hasWord(const std::vector<std::string>& contents, const char* word) {
+  return std::find(contents.begin(), contents.end(), word) != contents.end();
+}
+std::vector<double> flat(const std::vector<Vec3>& vectors) {
+  return std::vector<double>(&vectors[0].x, &vectors[0].x + 3 * vectors.size());
 }
 
 void addLine(ForceLines& lines, const Vec3& from, const Vec3& to, const Vec3& normal, const Vec3& force) {
@@ -35,71 +33,6 @@ void addLine(ForceLines& lines, const Vec3& from, const Vec3& to, const Vec3& no
 
 }  // namespace
 
-CellStress cellStress(const fem::Model& model, std::size_t elements) {
-  Means means(elements, 9);
-  forEachSolid(model, [&](const fem::Solid&, const fem::Solid::Sample& sample) {
-    for (std::size_t q = 0; q < sample.element.size(); ++q) {
-      const double *F = &sample.F[9 * q], *P = &sample.P[9 * q], J = determinant(F);
-      double sigma[9];
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          sigma[3 * i + j] = (P[3 * i] * F[3 * j] + P[3 * i + 1] * F[3 * j + 1] + P[3 * i + 2] * F[3 * j + 2]) / J;
-      means.add(sample.element[q], J * sample.volume[q], sigma);
-    }
-  });
-  CellStress stress{means.take(), {}, {}};
-  for (std::size_t e = 0; e < elements; ++e) {
-    const double* s = &stress.cauchy[9 * e];
-    const double p = -(s[0] + s[4] + s[8]) / 3.0;
-    double norm2 = 0.0;
-    for (std::size_t k = 0; k < 9; ++k) {
-      const double deviator = s[k] + (k % 4 == 0 ? p : 0.0);
-      norm2 += deviator * deviator;
-    }
-    stress.pressure.push_back(p);
-    stress.vonMises.push_back(std::sqrt(1.5 * norm2));
-  }
-  return stress;
-}
-
-std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const Solid& file) {
-  std::size_t size = 0;
-  bool flows = false;
-  const auto forEachHistory = [&](auto&& act) {
-    forEachSolid(model, [&](const fem::Solid& solid, const fem::Solid::Sample& sample) {
-      if (sample.element.empty() || sample.history.empty()) return;
-      const SolidMaterial& material = materialOf(file, solid.name());
-      const std::size_t own = sample.history.size() / sample.element.size();
-      const std::size_t skipped = material.dampingTime > 0.0 ? fem::viscousHistory : 0;
-      for (std::size_t q = 0; q < sample.element.size(); ++q)
-        act(material, sample.element[q], sample.volume[q],
-            std::span<const double>(&sample.history[own * q], own).subspan(skipped));
-    });
-  };
-  forEachHistory([&](const SolidMaterial& material, int, double, std::span<const double> history) {
-    if (yields(material))
-      flows = true;
-    else
-      size = std::max(size, history.size());
-  });
-  Means strain(elements, 1), volume(elements, 1), all(elements, size);
-  std::vector<double> others(size, 0.0);
-  forEachHistory([&](const SolidMaterial& material, int element, double weight, std::span<const double> history) {
-    if (!yields(material)) {
-      std::copy(history.begin(), history.end(), others.begin());
-      if (size > 0) all.add(element, weight, others.data());
-      return;
-    }
-    const double a = fem::plasticStrain(history), v = fem::plasticVolume(history);
-    strain.add(element, weight, &a);
-    volume.add(element, weight, &v);
-  });
-  std::vector<MeshField> fields;
-  if (flows) fields = {{"plastic_strain", strain.take()}, {"plastic_volume", volume.take()}};
-  if (size > 0) fields.push_back({"history", all.take(), static_cast<int>(size)});
-  return fields;
-}
-
 std::vector<double> fractionOf(const fem::Model& model) {
   for (const auto& term : model.terms)
     if (const auto* const solid = dynamic_cast<const fem::Solid*>(term.get()))
@@ -107,38 +40,56 @@ std::vector<double> fractionOf(const fem::Model& model) {
   return {};
 }
 
+namespace {
+
+/// Calls take(field, volumes) for what the words give at the points.
+template <class Take>
+void eachField(const Points& points, const Solid& solid, const std::vector<std::string>& contents, Take&& take) {
+  if (hasWord(contents, "stress")) take(stressAt(points), Volumes::present);
+  const auto takeAll = [&](const std::vector<MeshField>& fields) {
+    for (const MeshField& field : fields) take(field, Volumes::reference);
+  };
+  if (hasWord(contents, "strain")) takeAll(strainsAt(points));
+  if (hasWord(contents, "cells")) takeAll(cellsAt(points));
+  if (hasWord(contents, "history")) takeAll(historyAt(points, solid));
+}
+
+void add(std::vector<MeshField>& fields, MeshField field) {
+  const bool isStress = field.name == "stress";
+  fields.push_back(std::move(field));
+  if (!isStress) return;
+  for (MeshField& invariant : invariantsOf(fields.back())) fields.push_back(std::move(invariant));
+}
+
+}  // namespace
+
 std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const Solid& solid,
                                    const std::vector<std::string>& contents) {
-  const auto has = [&](const char* word) {
-    return std::find(contents.begin(), contents.end(), word) != contents.end();
-  };
-  const auto flat = [](const std::vector<Vec3>& vectors) {
-    return std::vector<double>(&vectors[0].x, &vectors[0].x + 3 * vectors.size());
-  };
   std::vector<MeshField> fields{{"displacement", flat(model.nodes.u), 3, false},
                                 {"velocity", flat(model.nodes.v), 3, false}};
-  if (has("stress")) {
-    CellStress stress = cellStress(model, elements);
-    fields.push_back({"stress", std::move(stress.cauchy), 9});
-    fields.push_back({"von_mises", std::move(stress.vonMises)});
-    fields.push_back({"pressure", std::move(stress.pressure)});
+  const bool asksPoints = std::ranges::any_of(std::array{"stress", "strain", "cells", "history"},
+                                              [&](const char* word) { return hasWord(contents, word); });
+  if (asksPoints) {
+    const Points points = pointsOf(model);
+    eachField(points, solid, contents,
+              [&](const MeshField& field, Volumes volumes) { add(fields, meansOf(points, field, elements, volumes)); });
   }
-  if (has("strain"))
-    for (MeshField& field : elementStrains(model, elements)) fields.push_back(std::move(field));
-  if (has("cells"))
-    for (MeshField& field : elementCells(model, elements)) fields.push_back(std::move(field));
-  if (has("history"))
-    for (MeshField& field : cellHistory(model, elements, solid)) fields.push_back(std::move(field));
-  if (has("weights"))
+  if (hasWord(contents, "weights"))
     if (std::vector<double> fraction = fractionOf(model); !fraction.empty())
       fields.push_back({"solid_weight", std::move(fraction), 1, false});
+  return fields;
+}
+
+std::vector<MeshField> pointFields(const Points& points, const Solid& solid, const std::vector<std::string>& contents) {
+  std::vector<MeshField> fields{deformationAt(points)};
+  eachField(points, solid, contents, [&](MeshField field, Volumes) { add(fields, std::move(field)); });
   return fields;
 }
 
 std::vector<std::string> notesOnSetNames(const Built& built, const Scene& scene) {
   const std::vector<std::string>& contents = scene.output.contents;
   std::vector<std::string> notes;
-  if (!scene.output.frames || std::find(contents.begin(), contents.end(), "solids") == contents.end()) return notes;
+  if (!scene.output.frames || !hasWord(contents, "solids")) return notes;
   for (std::size_t s = 0; s < built.meshes.size(); ++s) {
     const fem::SolidMesh& mesh = built.meshes[s];
     const coupling::SolidSide& side = built.run->solid(s);

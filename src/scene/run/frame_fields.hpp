@@ -7,39 +7,21 @@
 
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/walls/mesh_wall.hpp"
-#include "dovetail/fem/model/model.hpp"
 #include "dovetail/scene/build.hpp"
+#include "point_fields.hpp"
 
 namespace dovetail::scene {
-
-/// Means of the points of each element of the mesh, by their volumes as they are now; zero for elements that are not
-/// modelled.
-struct CellStress {
-  std::vector<double> cauchy;              ///< nine per element, row-major, Pa, > 0 in tension
-  std::vector<double> vonMises, pressure;  ///< Pa; pressure −tr σ/3, > 0 in compression
-};
-CellStress cellStress(const fem::Model& model, std::size_t elements);
-
-/// Values side by side, per point or cell.
-struct MeshField {
-  std::string name;
-  std::vector<double> values;
-  int components = 1;
-  bool perCell = true;
-};
-
-/// What the material of a solid remembers, element by element: means of its points by their reference volumes.
-/// "plastic_strain" (accumulated, √⅔ times its rate's norm) and "plastic_volume" (det Fₚ) of laws that flow; "history",
-/// all numbers, of others that remember something.
-std::vector<MeshField> cellHistory(const fem::Model& model, std::size_t elements, const Solid& solid);
 
 /// Fraction of the solid per node, 1 − w in an overlap, interpolated in the elements; empty if all is the solid's.
 std::vector<double> fractionOf(const fem::Model& model);
 
-/// What frames of a solid show, by the words of `output.contents`: displacement (m), velocity (m/s), stress, strain,
-/// cells, history, weights.
+/// What frames of a solid show, by the words of `output.contents`: displacement (m), velocity (m/s), weights, and of
+/// stress, strain, cells and history means over the points of each element.
 std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const Solid& solid,
                                    const std::vector<std::string>& contents);
+
+/// At the points of a solid themselves: the deformation gradient, and what these words give.
+std::vector<MeshField> pointFields(const Points& points, const Solid& solid, const std::vector<std::string>& contents);
 
 /// Of a started run whose frames show solids: what says that a set has another name in them, as a field has its own.
 std::vector<std::string> notesOnSetNames(const Built& built, const Scene& scene);

@@ -7,6 +7,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "dovetail/fem/elements/material_point.hpp"
 #include "dovetail/io_vtk/vtu_series.hpp"
 #include "dovetail/solid_io_vtk/solid_vtu.hpp"
 #include "frame_fields.hpp"
@@ -21,10 +22,16 @@ struct Frames::Impl {
   std::vector<io::VtuSeries> grains{}, contacts{}, bonds{};  // one, or none
   std::vector<io::VtuSeries> solids{}, walls{};
   std::vector<std::size_t> meshWalls{};  // of the model, in the order of walls
+  struct PointSeries {
+    io::VtuSeries series;
+    std::vector<fem::MaterialPoint> place{};  // as soon as they are known
+  };
+  std::vector<PointSeries> points{};  // of all solids, or none
 
   bool has(const char* word) const { return std::find(contents.begin(), contents.end(), word) != contents.end(); }
   void addGrains(const dem::Particles& particles, double time);
   void addSolid(std::size_t s, const Built& built, double time);
+  void addPoints(std::size_t s, const Built& built, double time);
   void dropLast();
 };
 
@@ -63,9 +70,10 @@ void requireFrames(const Output& output) {
                                      {"strain", "solids"},
                                      {"cells", "solids"},
                                      {"history", "solids"}})
-    if (has(word) && !has(bearer))
+    if (has(word) && !has(bearer) && !(bearer == std::string("solids") && has("points")))
       throw InputError(std::string("contents has \"") + word + "\", but no \"" + bearer + "\"", output.where,
-                       std::string("add \"") + bearer + "\", or leave it out");
+                       std::string("add \"") + bearer + "\"" +
+                           (bearer == std::string("solids") ? " or \"points\"" : "") + ", or leave it out");
 }
 
 void Frames::Impl::addGrains(const dem::Particles& particles, double time) {
@@ -86,9 +94,33 @@ void Frames::Impl::addSolid(std::size_t s, const Built& built, double time) {
   solids[s].write(time, solid_io::vtuText(mesh, fields, io::withMark(provenance)));
 }
 
+void Frames::Impl::addPoints(std::size_t s, const Built& built, double time) {
+  const fem::Model& model = *built.run->solid(s).model;
+  const Points now = pointsOf(model);
+  PointSeries& to = points[s];
+  std::vector<Vec3> X;
+  std::vector<std::int64_t> element;
+  forEachPoint(now, [&](const Points::Part& part, std::size_t p) {
+    X.push_back(part.sample.X[p]);
+    element.push_back(part.sample.element[p]);
+  });
+  if (to.place.empty()) {
+    const fem::ElementLocator locator(built.meshes[s]);
+    for (const Vec3& at : X) to.place.emplace_back(built.meshes[s], locator, at);
+  }
+  std::vector<Vec3> u;
+  for (const fem::MaterialPoint& place : to.place) u.push_back(place.valueOf(model.nodes.u));
+  const std::vector<MeshField> values = pointFields(now, files[s], contents);
+  io::PointFrame frame{
+      .points = X, .fields = {{"displacement", {&u[0].x, 3 * u.size()}, 3}}, .integers = {{"element", element}}};
+  for (const MeshField& field : values) frame.fields.push_back({field.name, field.values, field.components});
+  to.series.write(time, frame);
+}
+
 void Frames::Impl::dropLast() {
   for (std::vector<io::VtuSeries>* const all : {&grains, &contacts, &bonds, &solids, &walls})
     for (io::VtuSeries& one : *all) one.dropLast();
+  for (PointSeries& one : points) one.series.dropLast();
   times.pop_back();
 }
 
@@ -107,6 +139,9 @@ Frames::Frames(const Built& built, const Scene& scene, const std::filesystem::pa
   if (impl_->has("solids"))
     for (std::size_t s = 0; s < built.meshes.size(); ++s)
       add(impl_->solids, "solid_" + built.run->solid(s).name, io::FrameFile::vtu);
+  if (impl_->has("points"))
+    for (std::size_t s = 0; s < built.meshes.size(); ++s)
+      impl_->points.push_back({{folder, "points_" + built.run->solid(s).name, provenance, times}});
   if (!impl_->has("walls")) return;
   for (std::size_t w = 0; w < built.walls.size(); ++w)
     if (built.walls[w].firstMesh < built.walls[w].endMesh) {
@@ -128,6 +163,7 @@ void Frames::add(const Built& built, SameInstant before) {
   if (!impl_->contacts.empty()) addLines(impl_->contacts[0], time, contactLines(grains));
   if (!impl_->bonds.empty()) addLines(impl_->bonds[0], time, bondLines(grains));
   for (std::size_t s = 0; s < impl_->solids.size(); ++s) impl_->addSolid(s, built, time);
+  for (std::size_t s = 0; s < impl_->points.size(); ++s) impl_->addPoints(s, built, time);
   static const dem::MeshWall nothing{};  // in place of a wall that is away
   const auto meshes = grains.terms.all<dem::MeshWallTerm>();
   for (std::size_t w = 0; w < impl_->walls.size(); ++w) {

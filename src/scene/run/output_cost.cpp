@@ -11,6 +11,7 @@
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "point_fields.hpp"
 
 namespace dovetail::scene {
 
@@ -65,11 +66,16 @@ double bytesOfGrains(const dem::Model& grains, double count, const std::vector<s
 
 double bytesOfSolids(const Built& built, const std::vector<std::string>& contents) {
   const auto has = [&](const char* word) { return std::ranges::find(contents, word) != contents.end(); };
-  if (!has("solids")) return 0.0;
+  const double values = (has("stress") ? 11.0 * number : 0.0) + (has("strain") ? 14.0 * number : 0.0) +
+                        (has("cells") ? 12.0 * number : 0.0) + (has("history") ? 2.0 * number : 0.0);
+  double bytes = 0.0;
+  if (has("points"))
+    for (std::size_t s = 0; s < built.meshes.size(); ++s)
+      bytes += (2.0 * vector + 10.0 * number + cell + values) *
+               static_cast<double>(pointsOf(*built.run->solid(s).model).size());
+  if (!has("solids")) return bytes;
   // Packed by zlib, which makes little of shapes that repeat and values that are smooth.
   constexpr double packed = 0.75;
-  const double values = (has("stress") ? 11.0 * number : 0.0) + (has("history") ? 2.0 * number : 0.0);
-  double bytes = 0.0;
   for (const fem::SolidMesh& mesh : built.meshes)
     bytes += packed *
              (2.0 * vector * static_cast<double>(mesh.X.size()) + values * static_cast<double>(mesh.elementCount()));
@@ -141,12 +147,13 @@ void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
   const auto flows = [](const Solid& one) {
     return std::ranges::any_of(materialsOf(one), [](const SolidMaterial* material) { return yields(*material); });
   };
-  for (const Part& part : {Part{"weights", "overlap", std::ranges::any_of(scene.couplings, isOverlap)},
-                           Part{"history", "solid that yields", std::ranges::any_of(scene.solids, flows)},
-                           Part{"cells", "solid of cells", !scene.cells.empty()}, Part{"grains", "grains", anyGrains},
-                           Part{"contacts", "grains", anyGrains}, Part{"bonds", "bonds", !scene.bonds.empty()},
-                           Part{"solids", "solids", !built.meshes.empty()},
-                           Part{"walls", "wall that is a mesh", !grains.terms.all<dem::MeshWallTerm>().empty()}})
+  for (const Part& part :
+       {Part{"weights", "overlap", std::ranges::any_of(scene.couplings, isOverlap)},
+        Part{"history", "solid that yields", std::ranges::any_of(scene.solids, flows)},
+        Part{"cells", "solid of cells", !scene.cells.empty()}, Part{"grains", "grains", anyGrains},
+        Part{"contacts", "grains", anyGrains}, Part{"bonds", "bonds", !scene.bonds.empty()},
+        Part{"solids", "solids", !built.meshes.empty()}, Part{"points", "solids", !built.meshes.empty()},
+        Part{"walls", "wall that is a mesh", !grains.terms.all<dem::MeshWallTerm>().empty()}})
     if (!part.isThere && std::ranges::find(out.contents, part.word) != out.contents.end())
       lines.push_back("output.contents has " + quoted(part.word) + ", and the scene has no " + part.missing +
                       ": leave it out.");

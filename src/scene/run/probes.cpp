@@ -217,17 +217,15 @@ Probes::Values Probes::find(const Built&, const Scene&, const std::string& name,
 
 template <>
 Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const CellsProbe& kind) {
-  const std::size_t solid = solidNamed(kind.solid, *built.run);
-  int dimension = 3;
-  meanOfCells(*built.run->solid(solid).model, nullptr, dimension);
+  std::vector<CellPoint> cells = cellPointsOf(kind.solid, built);
+  if (kind.at) cells = {nearestCell(cells, *kind.at)};
   for (const char* const what : {"pressure_Pa", "stress_ratio", "void_ratio", "coordination", "sliding"})
     names_.push_back(name + "_" + what);
-  return [solid, kind](const Built& now, std::vector<double>& row) {
-    int dimensions = 3;
-    const CellMeasures cells =
-        meanOfCells(*std::as_const(*now.run).solid(solid).model, kind.at ? &*kind.at : nullptr, dimensions);
-    row.insert(row.end(), {cells.pressure(dimensions), cells.stressRatio(dimensions), cells.voidRatio,
-                           cells.coordination, cells.sliding});
+  return [cells](const Built&, std::vector<double>& row) {
+    int dimension = 3;
+    const CellMeasures mean = meanOf(cells, dimension);
+    row.insert(row.end(), {mean.pressure(dimension), mean.stressRatio(dimension), mean.voidRatio, mean.coordination,
+                           mean.sliding});
   };
 }
 

@@ -78,6 +78,16 @@ void requireConsistent(const PolyFrame& frame) {
   perCell.all(frame.integers);
 }
 
+void requireConsistent(const PointFrame& frame) {
+  const std::size_t count = frame.points.size();
+  FieldCheck perPoint("point", count);
+  for (const ComponentField& field : frame.fields) {
+    const auto components = static_cast<std::size_t>(field.components);
+    perPoint(field.name, field.values.size() == count * components ? count : field.values.size());
+  }
+  perPoint.all(frame.integers);
+}
+
 }  // namespace
 
 VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyValues provenance)
@@ -125,6 +135,12 @@ void VtuSeries::write(double time, const PolyFrame& frame) {
   requireLater(time);
   requireConsistent(frame);
   commit(time, vtpText(time, frame, provenance_));
+}
+
+void VtuSeries::write(double time, const PointFrame& frame) {
+  requireLater(time);
+  requireConsistent(frame);
+  commit(time, vtuText(time, frame, provenance_));
 }
 
 void VtuSeries::write(double time, const std::string& vtu) {

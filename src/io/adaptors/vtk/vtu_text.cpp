@@ -57,6 +57,10 @@ vtkSmartPointer<vtkCellArray> cellsOf(std::span<const std::array<int, n>> cells)
   return cellsOf(cells.size(), n, [&](std::size_t i) { return cells[i / n][i % n]; });
 }
 
+vtkSmartPointer<vtkCellArray> vertices(std::size_t points) {
+  return cellsOf(points, 1, [](std::size_t i) { return i; });
+}
+
 template <class Field>
 void addAll(vtkFieldData* data, const std::vector<Field>& fields) {
   for (const Field& field : fields) addField(data, field.name, field.values);
@@ -79,7 +83,7 @@ std::string vtuText(double time, const HexFrame& frame, const KeyValues& provena
 std::string vtuText(double time, const ParticleFrame& frame, const KeyValues& provenance) {
   vtkNew<vtkUnstructuredGrid> grid;
   setPoints(grid, frame.position);
-  grid->SetCells(VTK_VERTEX, cellsOf(frame.position.size(), 1, [](std::size_t i) { return i; }));
+  grid->SetCells(VTK_VERTEX, vertices(frame.position.size()));
   vtkFieldData* data = grid->GetPointData();
   addField(data, "radius", frame.radius);
   if (!frame.velocity.empty()) addField(data, "velocity", frame.velocity);
@@ -87,6 +91,18 @@ std::string vtuText(double time, const ParticleFrame& frame, const KeyValues& pr
   addIds(data, frame.id, frame.position.size());
   addAll(data, frame.vectors);
   addAll(data, frame.scalars);
+  addTime(grid, time);
+  addProvenance(grid, provenance);
+  return xmlText<vtkXMLUnstructuredGridWriter>(grid, Compressed::no);
+}
+
+std::string vtuText(double time, const PointFrame& frame, const KeyValues& provenance) {
+  vtkNew<vtkUnstructuredGrid> grid;
+  setPoints(grid, frame.points);
+  grid->SetCells(VTK_VERTEX, vertices(frame.points.size()));
+  for (const ComponentField& field : frame.fields)
+    addField(grid->GetPointData(), field.name, field.values, field.components);
+  addAll(grid->GetPointData(), frame.integers);
   addTime(grid, time);
   addProvenance(grid, provenance);
   return xmlText<vtkXMLUnstructuredGridWriter>(grid, Compressed::no);
@@ -111,7 +127,7 @@ std::string vtiText(double time, const GridFrame& frame, const KeyValues& proven
   image->SetSpacing(frame.spacing.x, frame.spacing.y, frame.spacing.z);
   image->SetDimensions(frame.count.data());
   const auto points = static_cast<std::size_t>(image->GetNumberOfPoints());
-  for (const GridFrame::Field& field : frame.fields) {
+  for (const ComponentField& field : frame.fields) {
     if (field.values.size() != points * static_cast<std::size_t>(field.components))
       throw InputError("the field '" + field.name + "' has " + std::to_string(field.values.size()) + " values",
                        "fields on a grid", "give one per component and point");

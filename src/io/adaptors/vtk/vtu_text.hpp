@@ -11,6 +11,7 @@ namespace dovetail::io {
 /// @throws Error if VTK fails
 std::string vtuText(double time, const HexFrame& frame, const KeyValues& provenance);
 std::string vtuText(double time, const ParticleFrame& frame, const KeyValues& provenance);
+std::string vtuText(double time, const PointFrame& frame, const KeyValues& provenance);
 std::string vtpText(double time, const PolyFrame& frame, const KeyValues& provenance);
 
 }  // namespace dovetail::io

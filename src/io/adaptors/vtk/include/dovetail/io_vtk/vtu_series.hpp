@@ -27,6 +27,12 @@ struct IntegerField {
   std::string name;
   std::span<const std::int64_t> values;
 };
+/// One value, vector or tensor (nine, row-major) per point.
+struct ComponentField {
+  std::string name;
+  std::span<const double> values;
+  int components = 1;
+};
 
 /// A mesh of 8-node hexahedra. Points: where the nodes are now, m. Node order of a cell:
 /// (−,−,−) (+,−,−) (+,+,−) (−,+,−) (−,−,+) (+,−,+) (+,+,+) (−,+,+). Point fields have one value per point, cell
@@ -73,16 +79,18 @@ struct PolyFrame {
   std::vector<IntegerField> integers;
 };
 
-/// Values on a regular grid, x fastest. Fields: one value, vector or tensor (nine, row-major) per point.
+/// Points without a size (VTK_VERTEX cells), such as those of a quadrature.
+struct PointFrame {
+  std::span<const Vec3> points;  // m
+  std::vector<ComponentField> fields;
+  std::vector<IntegerField> integers;
+};
+
+/// Values on a regular grid, x fastest.
 struct GridFrame {
   Vec3 lower, spacing;       // first point, distance of points, m
   std::array<int, 3> count;  // of points per direction
-  struct Field {
-    std::string name;
-    std::span<const double> values;
-    int components = 1;
-  };
-  std::vector<Field> fields;
+  std::vector<ComponentField> fields;
 };
 /// Its bytes as a VTI file. @throws InputError if a field has another size than the grid; Error if VTK fails
 std::string vtiText(double time, const GridFrame& frame, const KeyValues& provenance);
@@ -114,6 +122,7 @@ public:
   void write(double time, const HexFrame& frame);
   void write(double time, const ParticleFrame& frame);
   void write(double time, const PolyFrame& frame);
+  void write(double time, const PointFrame& frame);
   /// The bytes of a VTU file that somebody else has made, which should carry the mark (output_folder.hpp).
   void write(double time, const std::string& vtu);
   /// Takes the last frame back: the next one has its place.
