@@ -54,6 +54,7 @@ bool drawRun(int argc, char** argv) {
   options.integer("--frame N", settings.frame, -1000000, 1000000, "from 0; -1 is the last");
   options.integer("--mode K", mode, 0, 1000,
                   "a natural mode of the solids, from 1, in place of a frame; films show all");
+  options.text("--cell NAME", settings.cell, "the grains of a cell of \"output\" of the scene");
   options.text("--out FILE", file, "RUN/picture.png or RUN/film.gif if not given");
   options.group("view");
   const Range turn = between(-360.0, 360.0), height = between(-90.0, 90.0);
@@ -89,6 +90,7 @@ bool drawRun(int argc, char** argv) {
   }
   if (settings.film) options.refuseIdle("--frame", "with --film", "leave one of them out");
   options.refuseBoth("--cut", "--uncut");
+  options.refuseBoth("--mode", "--cell");
   if (uncut) settings.cutAxis = "none";
   settings.file = file;
   scene::writePicture(run, settings, std::cout);

@@ -238,14 +238,17 @@ private:
 };
 
 template <class Update>
-std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double unbalanced, Update update) {
+std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double unbalanced, Update update, Deal deal) {
   validateSamples(samples, unbalanced);
   rve::Rve tried = samples.front();
   update.go(tried, tried.state.F, 1.0, false);  // says what is wrong with the settings
   const fem::FieldTraits traits{.name = nameOf(samples), .density = meanDensity(samples)};
-  return fem::pointField(traits, [samples = std::move(samples), update](const fem::PointPlace& place) {
-    const auto number = static_cast<std::size_t>(place.element + place.point) % samples.size();
-    return std::make_unique<CellPoint<Update>>(samples[number], update);
+  if (!deal)
+    deal = [n = samples.size()](const fem::PointPlace& place) {
+      return static_cast<std::size_t>(place.element + place.point) % n;
+    };
+  return fem::pointField(traits, [samples = std::move(samples), update, deal](const fem::PointPlace& place) {
+    return std::make_unique<CellPoint<Update>>(samples.at(deal(place)), update);
   });
 }
 
@@ -257,12 +260,12 @@ bool visitCell(const fem::PointField& field, std::size_t point, const std::funct
   return owner != nullptr;
 }
 
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings) {
-  return fieldOf(std::move(samples), settings.unbalanced, QuasiStatic{settings});
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings, Deal deal) {
+  return fieldOf(std::move(samples), settings.unbalanced, QuasiStatic{settings}, std::move(deal));
 }
 
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings) {
-  return fieldOf(std::move(samples), RestCriterion{}.tolerance, Dynamic{settings});
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings, Deal deal) {
+  return fieldOf(std::move(samples), RestCriterion{}.tolerance, Dynamic{settings}, std::move(deal));
 }
 
 }  // namespace dovetail::hierarchical

@@ -12,9 +12,6 @@ namespace dovetail::hierarchical {
 /// `unbalanced`, not under pressure
 void validateSamples(const std::vector<rve::Rve>& samples, double unbalanced);
 
-/// Of the material that the cells are, mean, kg/m³.
-double meanDensity(const std::vector<rve::Rve>& samples);
-
 /// "cells of 400 discs", with why they are small.
 std::string nameOf(const std::vector<rve::Rve>& samples);
 

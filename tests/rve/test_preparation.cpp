@@ -4,6 +4,7 @@
 
 #include "cells.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/rve/contact_sample.hpp"
 
 namespace dovetail::rve {
 namespace {
@@ -63,6 +64,26 @@ TEST(Preparation, FabricIsThatOfArraysAndTurnsWithTheCell) {
   followPath(cell = start, plane(1.004, 0, 0, 0.99));
   EXPECT_GT(fabric(cell)(1, 1), before(1, 1));
   EXPECT_LT((fabric(framed(start, everywhere(Condition::periodic))) - before).norm(), 1e-12);
+}
+
+/// Σ f ⊗ b of the contacts one by one is the virial, and those that slide are counted.
+TEST(Preparation, ContactsOneByOneAreTheStress) {
+  for (Rve cell : {pressedDiscs(80), pressedSpheres(64)}) {
+    followPath(cell, plane(1.0, 0.004, 0, 0.996));
+    const ContactSample sample = sampleContacts(cell);
+    const Balance now = balance(cell);
+    EXPECT_EQ(sample.size(), static_cast<std::size_t>(now.contacts));
+    Eigen::Matrix3d virial = Eigen::Matrix3d::Zero();
+    int sliding = 0;
+    for (std::size_t c = 0; c < sample.size(); ++c) {
+      const Vec3 &f = sample.force[c], &b = sample.branch[c];
+      virial += Eigen::Vector3d(f.x, f.y, f.z) * Eigen::RowVector3d(b.x, b.y, b.z);
+      sliding += sample.slides[c];
+    }
+    EXPECT_LT((virial - cell.state.virial).norm(), 1e-9 * virial.norm());
+    EXPECT_EQ(sliding, now.sliding);
+    EXPECT_GT(sliding, 0);
+  }
 }
 
 TEST(Preparation, SameSeedSameCell) {

@@ -1,4 +1,4 @@
-// Points of solids of cells in frames.
+// Points of solids and grains of their cells in frames.
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -16,11 +16,14 @@ using io::FrameArray;
 using io::FrameContent;
 using io::test::ScratchFolder;
 
-std::string runFor(double time) {
+/// Of a run of 10 ms. @param cells  value of "cells" of the output
+std::string runWith(const std::string& cells, double time = 0.01) {
   return R"("steps": {"safety": 0.8}, "stages": [{"do": "run", "time": )" + std::to_string(time) +
-         R"(}], "output": {"frames": 2e-3, "checkpoints": 4e-3, "contents": ["solids", "stress", "strain", "cells", "points"]})";
+         R"(}], "output": {"frames": 2e-3, "checkpoints": 4e-3, "cells": )" + cells +
+         R"(, "contents": ["solids", "stress", "strain", "cells", "points", "contacts"]})";
 }
-const Scene shown = blockScene(runFor(0.01));
+const std::string corner = R"([{"name": "corner", "solid": "block", "at": [0, 0, 0]}])";
+const Scene shown = blockScene(runWith(corner));
 
 FrameContent lastFrame(const std::filesystem::path& pvd) {
   const auto frames = io::readPvd(pvd);
@@ -58,6 +61,34 @@ TEST(CellFrames, PointsHaveWhatElementsHaveTheMeansOf) {
   EXPECT_NEAR(high - low, apart * (1.0 - across), 1e-9);
 }
 
+TEST(CellFrames, GrainsOfACellCarryItsStress) {
+  const ScratchFolder folder;
+  std::ostringstream log;
+  ASSERT_TRUE(run(shown, {.folder = folder / "out", .progress = false}, log));
+  const FrameContent grains = lastFrame(folder / "out/cell_corner.pvd"),
+                     lines = lastFrame(folder / "out/cell_corner_contacts.pvd"),
+                     points = lastFrame(folder / "out/points_block.pvd");
+  ASSERT_EQ(grains.position.size(), 60U);
+  // Σ f ⊗ b over the volume is the stress of the point: with the area of the grains and the void ratio of the point.
+  double area = 0.0, yy = 0.0, xy = 0.0, sliding = 0.0;  // xy: symmetric, as the stress is
+  for (const double r : valuesOf(grains, "radius", false)) area += 3.14159265358979 * r * r;
+  const std::vector<double>& force = valuesOf(lines, "force", true);
+  for (std::size_t c = 0; c < lines.cells; ++c) {
+    const Vec3 branch = lines.position[2 * c + 1] - lines.position[2 * c];
+    yy += force[3 * c + 1] * branch.y;
+    xy += 0.5 * (force[3 * c] * branch.y + force[3 * c + 1] * branch.x);
+    sliding += valuesOf(lines, "sliding", true)[c] / static_cast<double>(lines.cells);
+  }
+  std::size_t nearest = 0;
+  for (std::size_t p = 0; p < 4; ++p)
+    if (norm(points.position[p]) < norm(points.position[nearest])) nearest = p;
+  const double volume = 0.1 * area * (1.0 + valuesOf(points, "void_ratio", false)[nearest]);
+  const double sigma = valuesOf(points, "stress", false)[9 * nearest + 4];
+  EXPECT_NEAR(yy / volume, sigma, 1e-6 * std::abs(sigma));
+  EXPECT_NEAR(xy / volume, valuesOf(points, "stress", false)[9 * nearest + 1], 1e-6 * std::abs(sigma));
+  EXPECT_NEAR(sliding, valuesOf(points, "sliding", false)[nearest], 1e-12);
+}
+
 std::string textOf(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -67,12 +98,14 @@ TEST(CellFrames, AreTheSameAfterABreak) {
   const ScratchFolder folder;
   std::ostringstream log;
   ASSERT_TRUE(run(shown, {.folder = folder / "whole", .progress = false}, log));
-  ASSERT_TRUE(run(blockScene(runFor(0.004)), {.folder = folder / "broken", .progress = false}, log));
+  ASSERT_TRUE(run(blockScene(runWith(corner, 0.004)), {.folder = folder / "broken", .progress = false}, log));
   ASSERT_TRUE(resume({.folder = folder / "broken", .progress = false, .until = 0.01, .threads = 2}, log));
-  const auto whole = io::readPvd(folder / "whole/points_block.pvd"),
-             broken = io::readPvd(folder / "broken/points_block.pvd");
-  ASSERT_EQ(whole.size(), broken.size());
-  EXPECT_TRUE(textOf(whole.back().second) == textOf(broken.back().second));
+  for (const char* const name : {"points_block", "cell_corner", "cell_corner_contacts"}) {
+    const auto whole = io::readPvd(folder / "whole" / (name + std::string(".pvd")));
+    const auto broken = io::readPvd(folder / "broken" / (name + std::string(".pvd")));
+    ASSERT_EQ(whole.size(), broken.size());
+    EXPECT_TRUE(textOf(whole.back().second) == textOf(broken.back().second)) << name;
+  }
 }
 
 TEST(CellFrames, WhatCannotBeShownIsRefused) {
@@ -87,6 +120,12 @@ TEST(CellFrames, WhatCannotBeShownIsRefused) {
       return std::string(error.what());
     }
   };
+  expectParts(refusal(R"({"cells": [{"name": "a", "solid": "block", "at": [0, 0, 0]}]})"), {"cells", "no frames"});
+  expectParts(refusal(R"({"frames": 1e-3, "cells": [{"name": "a", "solid": "blok", "at": [0, 0, 0]}]})"),
+              {"output.cells.0", "blok"});
+  expectParts(refusal(R"({"frames": 1e-3, "cells": [{"name": "a", "solid": "block", "at": [0, 0, 0]},
+      {"name": "a", "solid": "block", "at": [1, 0, 0]}]})"),
+              {"output.cells.1", "another cell"});
   expectParts(refusal(R"({"frames": 1e-3, "contents": ["stress"]})"), {"stress", "points"});
 }
 

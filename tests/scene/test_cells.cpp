@@ -150,6 +150,49 @@ TEST(SceneCells, AreHeldByTies) {
   std::filesystem::remove_all(folder);
 }
 
+/// A bed of four layers under 100 kPa and its own weight of another 80. @param deal  key of the material
+Scene bed(const std::string& deal, const std::string& gravity = "[0, -200, 0]") {
+  return sceneFromText(R"({"gravity": )" + gravity + ", " + discs() +
+                           R"("solids": [{"name": "bed", "mesh": "box", "cell": "quad4", "cells": [1, 4, 1],
+      "box": [[0, 0, 0], [0.1, 0.2, 0.1]], "material": {"law": "cells", "cells": "sand")" +
+                           deal +
+                           R"(}, "supports": [{"on": "x-", "components": ["x"]}, {"on": "x+", "components": ["x"]},
+        {"on": "y-", "components": ["y"]}], "loads": [{"on": "y+", "type": "pressure", "pressure": 1e5}]}],)" +
+                           runs + "}",
+                       "s.json", "/");
+}
+/// Largest vertical force on a row of nodes that are free to move over the weight of a layer. (Shear stresses of the
+/// cells themselves, which nothing holds, push one node of a row up and the other down.)
+double pushed(const Built& built) {
+  const coupling::SolidSide& side = std::as_const(*built.run).solid(0);
+  std::vector<Vec3> all(side.nodes().X.size());
+  for (const auto& term : side.model->terms) term->addForces(side.nodes(), {}, all);
+  double most = 0.0, mass = 0.0;
+  std::map<long, double> rows;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    mass += side.nodes().mass[n];
+    rows[std::lround(1e3 * side.nodes().X[n].y)] += all[n].y;
+  }
+  for (const auto& [y, force] : rows)
+    if (y > 0) most = std::max(most, std::abs(force));
+  return most / (200.0 * mass / 4.0);
+}
+
+/// p + ρ g d is linear, and so balanced by the elements to what cells are pressed to.
+TEST(SceneCells, DealtByDepthRestUnderGravity) {
+  const Built inTurn = started(bed("")), byDepth = started(bed(R"(, "deal": "by depth")"));
+  EXPECT_GT(pushed(inTurn), 0.4);
+  EXPECT_LT(pushed(byDepth), 5e-3);
+  // Pressures of the lowest and the highest points, 2 × 2 in each element.
+  const std::vector<CellPoint> cells = cellPoints(*byDepth.run->solid(0).model);
+  const double weight = elementsOf(byDepth).density() * 200.0, depth = 0.025 - 0.025 / std::sqrt(3.0);
+  int dimension = 0;
+  EXPECT_NEAR(meanOf({nearestCell(cells, {0, 0.2, 0})}, dimension).pressure(2), 1e5 + weight * depth, 2e2);
+  EXPECT_NEAR(meanOf({nearestCell(cells, {0, 0, 0})}, dimension).pressure(2), 1e5 + weight * (0.2 - depth), 2e2);
+  expectParts(refusalOfStart(bed(R"(, "deal": "by depth")", "[0, 0, 0]")),
+              {"dealt by depth", "no gravity", "solids.0"});
+}
+
 TEST(SceneCells, ThatNoSolidHasAreNotMade) {
   const Built built = build(sceneFromText("{" + discs() +
                                               R"("solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 1],

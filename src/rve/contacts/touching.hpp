@@ -52,6 +52,11 @@ inline double slipLimit(const Springs& springs, const Touch& touch) {
   return springs.slides() ? springs.friction * touch.normalForce / (springs.tangential * touch.stiffness) : 0.0;
 }
 
+/// Whether it is at the limit of friction.
+inline bool isSliding(const Springs& springs, const Touch& touch) {
+  return springs.slides() && norm(touch.stretch) >= (1.0 - 1e-9) * slipLimit(springs, touch);
+}
+
 /// k_r, N m.
 inline double rollingStiffness(const Rve& cell, const Touch& touch) {
   return cell.springs.rolls() ? cell.springs.rolling * cell.springs.tangential * touch.stiffness *

@@ -63,7 +63,7 @@ Balance balance(const Rve& cell) {
     touched[touch.i] = touched[touch.j] = 1;
     forces += norm(contactForce(cell, touch));
     fractions += fractionHere(cell, touch);
-    if (cell.springs.slides() && norm(touch.stretch) >= (1.0 - 1e-9) * slipLimit(cell.springs, touch)) ++found.sliding;
+    if (isSliding(cell.springs, touch)) ++found.sliding;
   });
   forEachBond(cell, [&](const BondTouch& bond) {
     ++found.contacts;

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <set>
 
+#include "dealt_cells.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/hierarchical/cell_field.hpp"
 #include "dovetail/rve/operators.hpp"
 #include "dovetail/rve/packing.hpp"
 #include "dovetail/rve/rve_archive.hpp"
@@ -18,7 +18,6 @@ namespace dovetail::scene {
 
 namespace {
 
-constexpr double restOfCells = 1e-6;  // forces out of balance over the mean contact force
 constexpr double bytesOfGrain = 1000.0;
 
 rve::Springs springsOf(const CellLinearContact& law, double friction) {
@@ -109,16 +108,20 @@ void addCells(Built& built, const Scene& scene) {
   }
 }
 
-std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, bool loadSteps) {
-  const std::vector<rve::Rve>& cells = banked(built, law.cells);
-  if (loadSteps)
+std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, const CellElements& elements) {
+  DealtCells dealt{banked(built, law.cells), {}};
+  if (law.deal == GrainCells::Deal::byDepth) dealt = pressedByDepth(dealt.cells, elements);
+  if (elements.loadSteps)
     return hierarchical::cellField(
-        cells, hierarchical::QuasiStaticCells{
-                   .path = {.inertialNumber = law.inertialNumber, .rest = {.tolerance = restOfCells}},
-                   .unbalanced = restOfCells,
-                   .tangent = static_cast<hierarchical::Operator>(law.tangent)});
-  return hierarchical::cellField(
-      cells, hierarchical::DynamicCells{.strainPerStep = law.strainPerStep, .damping = law.damping});
+        std::move(dealt.cells),
+        hierarchical::QuasiStaticCells{
+            .path = {.inertialNumber = law.inertialNumber, .rest = {.tolerance = restOfCells}},
+            .unbalanced = restOfCells,
+            .tangent = static_cast<hierarchical::Operator>(law.tangent)},
+        std::move(dealt.deal));
+  return hierarchical::cellField(std::move(dealt.cells),
+                                 hierarchical::DynamicCells{.strainPerStep = law.strainPerStep, .damping = law.damping},
+                                 std::move(dealt.deal));
 }
 
 void requireDimension(const GrainCells& law, int dimension, fem::Formulation formulation, const Built& built) {

@@ -17,6 +17,7 @@
 namespace dovetail::fem {
 enum class Formulation;
 class PointField;
+struct SolidOptions;
 class PointMaterial;
 }  // namespace dovetail::fem
 
@@ -106,8 +107,16 @@ inline bool hasCells(const SolidMaterial& material) { return std::holds_alternat
 /// come to the pressure
 void addCells(Built& built, const Scene& scene);
 std::vector<rve::Rve> makeCells(const Cells& cells);
-/// A field of its own for each term. @param loadSteps  whether they rest at every state, in place of following a motion
-std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, bool loadSteps);
+inline constexpr double restOfCells = 1e-6;  ///< forces out of balance over the mean contact force
+/// What becomes a field of cells.
+struct CellElements {
+  const fem::SolidMesh& mesh;
+  const fem::SolidOptions& options;
+  Vec3 gravity;            ///< on the solid, m/s²
+  bool loadSteps = false;  ///< whether they rest at every state, in place of following a motion
+};
+/// A field of its own for each term. @throws InputError if cells are dealt by depth and nothing weighs
+std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, const CellElements& elements);
 /// @throws InputError for discs out of plane strain, or in elements that do not keep it
 void requireDimension(const GrainCells& law, int dimension, fem::Formulation formulation, const Built& built);
 double confinedModulus(const GrainCells& law, const Built& built);

@@ -76,16 +76,19 @@ bool takesLoadStepsAlone(const Scene& scene) {
 }
 
 std::shared_ptr<fem::Solid> makeElements(const fem::SolidMesh& mesh, const SolidMaterial& material,
-                                         const fem::SolidOptions& options, const Built& built, bool loadSteps) {
+                                         const fem::SolidOptions& options, const Built& built, const Vec3& gravity,
+                                         bool loadSteps) {
   if (const auto* const cells = std::get_if<GrainCells>(&material.law)) {
     requireDimension(*cells, fem::dimensionOf(mesh), options.formulation, built);
-    return fem::makeSolid(mesh, fieldOf(*cells, built, loadSteps), options);
+    return fem::makeSolid(mesh, fieldOf(*cells, built, {mesh, options, gravity, loadSteps}), options);
   }
   return fem::makeSolid(mesh, makeMaterial(material), options);
 }
 
 void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap,
-                 const Built& built, bool loadSteps) {
+                 const Built& built, const Scene& scene) {
+  const Vec3 gravity = solid.gravity ? scene.gravity : Vec3{};
+  const bool loadSteps = takesLoadStepsAlone(scene);
   fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
   if (overlap) options.fraction = arlequin::solidWeights(overlapWeights(*overlap, mesh));
   const std::vector<std::size_t> material = materialByElement(solid, mesh);
@@ -104,7 +107,7 @@ void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, co
       if (mesh.groups.size() > 1) name = m > 0 ? name + " " + fem::name(group.shape) : fem::name(group.shape);
       options.name = name;
       if (elements.size() < mesh.elementCount()) options.elementSet = options.name = setOf(mesh, name, elements);
-      model.add(makeElements(mesh, *materials[m], options, built, loadSteps));
+      model.add(makeElements(mesh, *materials[m], options, built, gravity, loadSteps));
     }
     first = end;
   }
@@ -170,7 +173,7 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   addSets(built.meshes.back(), solid);
   fem::SolidMesh& mesh = built.meshes.back();
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
-  addElements(*model, mesh, solid, overlap, built, takesLoadStepsAlone(scene));
+  addElements(*model, mesh, solid, overlap, built, scene);
   if (solid.gradient) addGradient(*model, mesh, solid, overlap);
   if (solid.gravity && changesGravity(scene))
     model->add(fem::gravity([now = built.changing.gravity](double) { return *now; }));

@@ -116,6 +116,7 @@ void describe(Fields& f, SupportProbe& v);
 void describe(Fields& f, RegionProbe& v);
 void describe(Fields& f, CellsProbe& v);
 void describe(Fields& f, Probe& v);
+void describe(Fields& f, ShownCell& v);
 void describe(Fields& f, Output& v);
 void describe(Fields& f, Scene& v);
 

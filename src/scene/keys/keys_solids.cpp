@@ -76,7 +76,12 @@ void describe(Fields& f, DeformedMetric& v) {
 }
 void describe(Fields& f, GrainCells& v) {
   static constexpr const char* tangents[] = {"elastic", "frictional", "Voigt", "probed", "numerical", "averaged"};
+  static constexpr const char* deals[] = {"in turn", "by depth"};
   f.text({"cells", "name of the cells"}, v.cells, true);
+  f.choice({"deal",
+            "which cell a point gets: one after the other; or one that was pressed on by the weight above it, from the "
+            "highest node of the solid down, so that a bed under gravity starts at rest"},
+           v.deal, deals);
   f.choice({"tangent", "of load steps: derivative of the stress of the cells"}, v.tangent, tangents);
   f.number({"inertial_number", "of the paths of the cells in load steps"}, v.inertialNumber, between(0.0, 1e-2, true));
   f.number({"strain_per_step", "largest, of the steps of the grains while the solid moves"}, v.strainPerStep,

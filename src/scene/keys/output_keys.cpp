@@ -45,6 +45,12 @@ void describe(Fields& f, Probe& v) {
            "ratio, contacts per grain and fraction of sliding contacts of the cells of a solid"},
           v.of, kinds);
 }
+void describe(Fields& f, ShownCell& v) {
+  f.where(v.where);
+  f.text({"name", "of its files: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);
+  solid(f, v.solid);
+  f.vector({"at", "position; the cell nearest to it at the start"}, v.at, unit::length);
+}
 void describe(Fields& f, Output& v) {
   static constexpr const char* contents[] = {"grains", "spin",   "forces", "weights", "contacts", "bonds", "solids",
                                              "points", "stress", "strain", "cells",   "history",  "walls"};
@@ -54,6 +60,8 @@ void describe(Fields& f, Output& v) {
   f.flag({"hdf5", "whether the series is written as series.h5 too, and solids at the end as .vtkhdf"}, v.hdf5);
   f.number({"frames", "interval of frames for ParaView"}, v.frames, positive(unit::time));
   f.wordList({"contents", "of the frames"}, v.contents, contents, false);
+  f.list({"cells", "cells of grains whose grains are written with every frame, and contacts if they are in contents"},
+         v.cells);
   f.number({"checkpoints", "interval of checkpoints"}, v.checkpoints, positive(unit::time));
 }
 

@@ -38,14 +38,21 @@ Colour colourNamed(const std::string& name) {
   return {channel(1), channel(3), channel(5)};
 }
 
+/// Discs, which are drawn as balls.
+bool liesInPlane(const picture::Drawing& drawing) {
+  return drawing.triangles.empty() && !drawing.balls.empty() &&
+         std::ranges::all_of(drawing.balls, [](const picture::Ball& ball) { return ball.centre.z == 0.0; });
+}
+
 class Pictures {
 public:
   Pictures(const fs::path& folder, const PictureOptions& options)
       : options_(options),
         scene_(readRun(folder)),
-        frames_(folder, scene_, options.mode.has_value()),
+        frames_(folder, scene_, options.mode.has_value(), options.cell),
         background_(colourNamed(options.background)),
         fields_(options_, scene_, isDark(), someFrames()) {
+    if (!options.cell.empty()) scene_.walls.clear();
     if (options.lines != "none" && !frames_.has(options.lines))
       throw InputError("there are no frames of " + options.lines, "--lines",
                        "add \"" + options.lines + "\" to \"contents\" in \"output\" of the scene, and run again");
@@ -70,7 +77,9 @@ public:
                                                std::max(box_.upper.z, box.upper.z)}};
     }
     const Vec3 up = norm(scene_.gravity) > 0.0 ? -scene_.gravity : Vec3{0, 0, 1};
-    camera_ = viewOf(box_, up, options_.azimuth, options_.elevation);
+    geometry::Box seen = box_;
+    if (liesInPlane(some.back())) seen.lower.z = seen.upper.z = 0.0;
+    camera_ = viewOf(seen, up, options_.azimuth, options_.elevation);
     chooseCut();
     placeCamera(some, frames_.read(which.back()));
   }

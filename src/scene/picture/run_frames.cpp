@@ -13,28 +13,54 @@ const io::FrameContent* Instant::find(const std::string& name) const {
   return found == parts.end() ? nullptr : &found->second;
 }
 
-RunFrames::RunFrames(const fs::path& folder, const Scene& scene, bool modes) {
-  std::vector<std::string> names{"grains", "contacts", "bonds"};
-  for (const Solid& solid : scene.solids) names.push_back("solid_" + solid.name);
-  for (std::size_t w = 0; w < scene.walls.size(); ++w) names.push_back("wall_" + std::to_string(w));
+namespace {
+
+struct SeriesFile {
+  std::string series, file;  ///< without .pvd
+};
+
+std::vector<SeriesFile> filesOf(const Scene& scene, bool modes, const std::string& cell) {
+  if (!cell.empty()) return {{"grains", "cell_" + cell}, {"contacts", "cell_" + cell + "_contacts"}};
+  std::vector<SeriesFile> files;
+  for (const Solid& solid : scene.solids)
+    files.push_back({"solid_" + solid.name, (modes ? "modes_" : "solid_") + solid.name});
+  if (modes) return files;
+  for (const char* const name : {"grains", "contacts", "bonds"}) files.push_back({name, name});
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    files.push_back({"wall_" + std::to_string(w), "wall_" + std::to_string(w)});
+  return files;
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const Scene& scene, bool modes, const std::string& cell) {
+  if (modes)
+    throw InputError("the run has no frames of modes", folder.string(),
+                     "give its scene a stage \"do\": \"modes\" and \"frames\" in \"output\", and run again");
+  if (!cell.empty()) {
+    std::string names;
+    for (const ShownCell& one : scene.output.cells) names += (names.empty() ? "" : ", ") + one.name;
+    throw InputError(
+        "the run has no frames of a cell \"" + cell + "\"", folder.string(),
+        names.empty() ? "name it in \"cells\" in \"output\" of the scene, and run again" : "give one of " + names);
+  }
+  throw InputError("the run has no frames", folder.string(),
+                   "write \"frames\": \"10 ms\", or another interval, into \"output\" of its scene, and run again");
+}
+
+}  // namespace
+
+RunFrames::RunFrames(const fs::path& folder, const Scene& scene, bool modes, const std::string& cell) {
   std::set<double> times;
   std::error_code error;
-  for (const std::string& name : names) {
-    if (modes && !name.starts_with("solid_")) continue;
-    const fs::path file = folder / ((modes ? "modes_" + name.substr(6) : name) + ".pvd");
+  for (const SeriesFile& one : filesOf(scene, modes, cell)) {
+    const fs::path file = folder / (one.file + ".pvd");
     if (!fs::is_regular_file(file, error)) continue;
     for (const auto& [time, frame] : io::readPvd(file)) {
-      files_[name][time] = frame;
+      files_[one.series][time] = frame;
       times.insert(time);
     }
   }
   times_.assign(times.begin(), times.end());
-  if (times_.empty() && modes)
-    throw InputError("the run has no frames of modes", folder.string(),
-                     "give its scene a stage \"do\": \"modes\" and \"frames\" in \"output\", and run again");
-  if (times_.empty())
-    throw InputError("the run has no frames", folder.string(),
-                     "write \"frames\": \"10 ms\", or another interval, into \"output\" of its scene, and run again");
+  if (times_.empty()) refuse(folder, scene, modes, cell);
 }
 
 std::size_t RunFrames::numberOf(int frame) const {

@@ -23,9 +23,9 @@ struct Instant {
 
 class RunFrames {
 public:
-  /// @param modes  of those of the solids, named as these
+  /// @param modes  of those of the solids, named as these  @param cell  if not empty: its grains and contacts alone
   /// @throws InputError if there is no frame
-  RunFrames(const std::filesystem::path& folder, const Scene& scene, bool modes);
+  RunFrames(const std::filesystem::path& folder, const Scene& scene, bool modes, const std::string& cell);
   std::size_t count() const { return times_.size(); }
   /// The number of a frame that is counted from the end if negative. @throws InputError if there is none
   std::size_t numberOf(int frame) const;

@@ -3,11 +3,13 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <functional>
+#include <set>
 
 #include "build/parts.hpp"
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/hierarchical/cell_field.hpp"
+#include "dovetail/io/names.hpp"
 #include "dovetail/rve/rve_archive.hpp"
 #include "warnings/warnings.hpp"
 
@@ -92,6 +94,19 @@ std::vector<CellPoint> cellPointsOf(const std::string& solid, const Built& built
 
 const CellPoint& nearestCell(const std::vector<CellPoint>& cells, const Vec3& at) {
   return *std::ranges::min_element(cells, {}, [&](const CellPoint& one) { return squaredNorm(one.X - at); });
+}
+
+std::vector<CellPoint> shownCells(const Built& built, const Output& output) {
+  std::vector<CellPoint> places;
+  std::set<std::string> names;
+  for (const ShownCell& one : output.cells)
+    atPlace(one.where, [&] {
+      io::requirePlainName(one.name, "name");
+      if (!names.insert(one.name).second || !names.insert(one.name + "_contacts").second)
+        throw InputError("another cell has files of the name \"" + one.name + "\"", "name", "give it another name");
+      places.push_back(nearestCell(cellPointsOf(one.solid, built), one.at));
+    });
+  return places;
 }
 
 void visit(const CellPoint& place, const std::function<void(const rve::Rve&)>& look) {

@@ -43,6 +43,8 @@ std::vector<CellPoint> cellPoints(const fem::Model& model);
 std::vector<CellPoint> cellPointsOf(const std::string& solid, const Built& built);
 /// @param cells  at least one
 const CellPoint& nearestCell(const std::vector<CellPoint>& cells, const Vec3& at);
+/// Of the cells that frames show, in their order. @throws InputError also for names of files that two have
+std::vector<CellPoint> shownCells(const Built& built, const Output& output);
 /// Shows the cell as it was accepted last.
 void visit(const CellPoint& place, const std::function<void(const rve::Rve&)>& look);
 

@@ -9,6 +9,7 @@
 #include "dovetail/dem/model/sample.hpp"
 #include "dovetail/dem/walls/facet_tractions.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/rve/contact_sample.hpp"
 
 namespace dovetail::scene {
 
@@ -127,6 +128,29 @@ ForceLines bondLines(const dem::Model& grains) {
     }
   }
   return lines;
+}
+
+CellGrains grainsOf(const rve::Rve& cell) {
+  const rve::CellState& s = cell.state;
+  const auto vectorsOf = [&](const rve::Components& c) {
+    std::vector<Vec3> vectors(cell.size());
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::size_t i = 0; i < c[static_cast<std::size_t>(axis)].size(); ++i)
+        vectors[i][axis] = c[static_cast<std::size_t>(axis)][i];
+    return vectors;
+  };
+  CellGrains grains{vectorsOf(s.x), vectorsOf(s.v), vectorsOf(s.spin), {}};
+  const std::array<Vec3, 3> rows = geometry::inverse(s.lattice);
+  for (Vec3& x : grains.x) x -= s.lattice.shift(geometry::periodOf(s.lattice, rows, x));
+  const rve::ContactSample sample = rve::sampleContacts(cell);
+  for (std::size_t c = 0; c < sample.size(); ++c) {
+    const Vec3 &from = grains.x[static_cast<std::size_t>(sample.first[c])], &b = sample.branch[c];
+    addLine(grains.contacts, from, from + b, -1.0 / norm(b) * b, sample.force[c]);
+    grains.contacts.first.push_back(sample.first[c]);
+    grains.contacts.second.push_back(sample.second[c]);
+    grains.contacts.sliding.push_back(sample.slides[c]);
+  }
+  return grains;
 }
 
 WallFacets wallFacets(const dem::MeshWall& mesh) {

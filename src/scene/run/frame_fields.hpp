@@ -7,6 +7,7 @@
 
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/dem/walls/mesh_wall.hpp"
+#include "dovetail/rve/rve.hpp"
 #include "dovetail/scene/build.hpp"
 #include "point_fields.hpp"
 
@@ -35,11 +36,20 @@ struct ForceLines {
   std::vector<Vec3> force;                  ///< on the first, N
   std::vector<double> normal, tangential;   ///< N: > 0 pushes apart; magnitude across the line's direction
   std::vector<double> utilised;             ///< of bonds: largest stress over strength
+  std::vector<double> sliding;              ///< of contacts in cells of grains: 1 at the limit of friction, else 0
 };
 /// The normal is that of the contact.
 ForceLines contactLines(const dem::Model& grains);
 /// Of all bonds; the normal is along the line.
 ForceLines bondLines(const dem::Model& grains);
+
+/// Grains of a cell, in the period that begins at the origin, and their contacts, which end in other periods where they
+/// cross a border. Grains are numbered from 0.
+struct CellGrains {
+  std::vector<Vec3> x, v, spin;  ///< m; m/s, rad/s, fluctuations
+  ForceLines contacts;
+};
+CellGrains grainsOf(const rve::Rve& cell);
 
 /// A triangulated wall with what grains do to its facets.
 struct WallFacets {

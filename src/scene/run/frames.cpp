@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "cell_fields.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
@@ -27,11 +28,18 @@ struct Frames::Impl {
     std::vector<fem::MaterialPoint> place{};  // as soon as they are known
   };
   std::vector<PointSeries> points{};  // of all solids, or none
+  struct CellSeries {
+    CellPoint place;
+    io::VtuSeries grains;
+    std::vector<io::VtuSeries> contacts;  // one, or none
+  };
+  std::vector<CellSeries> cells{};
 
   bool has(const char* word) const { return std::find(contents.begin(), contents.end(), word) != contents.end(); }
   void addGrains(const dem::Particles& particles, double time);
   void addSolid(std::size_t s, const Built& built, double time);
   void addPoints(std::size_t s, const Built& built, double time);
+  void addCell(CellSeries& to, double time);
   void dropLast();
 };
 
@@ -45,6 +53,7 @@ void addLines(io::VtuSeries& series, double time, const ForceLines& lines) {
                       .scalars = {{"normal_force", lines.normal}, {"tangential_force", lines.tangential}},
                       .integers = {{"first", lines.first}, {"second", lines.second}}};
   if (!lines.utilised.empty()) frame.scalars.push_back({"utilised", lines.utilised});
+  if (!lines.sliding.empty()) frame.scalars.push_back({"sliding", lines.sliding});
   series.write(time, frame);
 }
 
@@ -117,10 +126,30 @@ void Frames::Impl::addPoints(std::size_t s, const Built& built, double time) {
   to.series.write(time, frame);
 }
 
+void Frames::Impl::addCell(CellSeries& to, double time) {
+  visit(to.place, [&](const rve::Rve& cell) {
+    const CellGrains grains = grainsOf(cell);
+    io::ParticleFrame frame{.position = grains.x,
+                            .radius = cell.radius,
+                            .velocity = grains.v,
+                            .force = {},
+                            .id = {},
+                            .vectors = {},
+                            .scalars = {}};
+    if (has("spin")) frame.vectors.push_back({"spin", grains.spin});
+    to.grains.write(time, frame);
+    if (!to.contacts.empty()) addLines(to.contacts[0], time, grains.contacts);
+  });
+}
+
 void Frames::Impl::dropLast() {
   for (std::vector<io::VtuSeries>* const all : {&grains, &contacts, &bonds, &solids, &walls})
     for (io::VtuSeries& one : *all) one.dropLast();
   for (PointSeries& one : points) one.series.dropLast();
+  for (CellSeries& one : cells) {
+    one.grains.dropLast();
+    for (io::VtuSeries& contacts : one.contacts) contacts.dropLast();
+  }
   times.pop_back();
 }
 
@@ -142,6 +171,12 @@ Frames::Frames(const Built& built, const Scene& scene, const std::filesystem::pa
   if (impl_->has("points"))
     for (std::size_t s = 0; s < built.meshes.size(); ++s)
       impl_->points.push_back({{folder, "points_" + built.run->solid(s).name, provenance, times}});
+  const std::vector<CellPoint> shown = shownCells(built, scene.output);
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const std::string name = "cell_" + scene.output.cells[k].name;
+    Impl::CellSeries& to = impl_->cells.emplace_back(Impl::CellSeries{shown[k], {folder, name, provenance, times}, {}});
+    if (impl_->has("contacts")) add(to.contacts, name + "_contacts", io::FrameFile::vtp);
+  }
   if (!impl_->has("walls")) return;
   for (std::size_t w = 0; w < built.walls.size(); ++w)
     if (built.walls[w].firstMesh < built.walls[w].endMesh) {
@@ -164,6 +199,7 @@ void Frames::add(const Built& built, SameInstant before) {
   if (!impl_->bonds.empty()) addLines(impl_->bonds[0], time, bondLines(grains));
   for (std::size_t s = 0; s < impl_->solids.size(); ++s) impl_->addSolid(s, built, time);
   for (std::size_t s = 0; s < impl_->points.size(); ++s) impl_->addPoints(s, built, time);
+  for (Impl::CellSeries& cell : impl_->cells) impl_->addCell(cell, time);
   static const dem::MeshWall nothing{};  // in place of a wall that is away
   const auto meshes = grains.terms.all<dem::MeshWallTerm>();
   for (std::size_t w = 0; w < impl_->walls.size(); ++w) {

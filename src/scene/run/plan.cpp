@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cell_fields.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "frames.hpp"
@@ -21,19 +22,23 @@ std::int64_t macroStepsIn(double seconds, double macroStep, const std::string& w
   return std::max<std::int64_t>(1, std::llround(count));
 }
 
-void requireOutputs(const Output& output) {
+void requireOutputs(const Built& built, const Output& output) {
   const char* const asked = !output.probes.empty() ? "probes" : output.hdf5 ? "hdf5" : nullptr;
   if (asked && !output.series)
     throw InputError(std::string("output has ") + asked + ", but no series", output.where,
                      "give output.series an interval, or leave them out");
+  if (!output.cells.empty() && !output.frames)
+    throw InputError("output has cells, but no frames", output.where,
+                     "give output.frames an interval, or leave them out");
   if (output.hdf5) requireHdf5();
   if (output.frames) requireFrames(output);
+  shownCells(built, output);
 }
 
 }  // namespace
 
 Plan planOf(const Built& built, const Scene& scene) {
-  requireOutputs(scene.output);
+  requireOutputs(built, scene.output);
   Plan plan;
   const double macroStep = built.run->macroStep();
   for (const Stage& stage : scene.stages)

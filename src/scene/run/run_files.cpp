@@ -17,7 +17,7 @@ void removeIfOurs(const fs::path& folder, const std::vector<const char*>& names)
 /// Whether frames of a run may have this name.
 bool isNameOfFrames(const std::string& name) {
   return name == "grains" || name == "contacts" || name == "bonds" || name.starts_with("solid_") ||
-         name.starts_with("points_") || name.starts_with("modes_") ||
+         name.starts_with("points_") || name.starts_with("cell_") || name.starts_with("modes_") ||
          (name.starts_with("wall_") && name.find_first_not_of("0123456789", 5) == std::string::npos);
 }
 

@@ -40,16 +40,23 @@ struct DynamicCells {
   double stepFraction = 0.8;    ///< of the cell's critical step, in (0, 1)
 };
 
+/// Number of the sample that a point begins as.
+using Deal = std::function<std::size_t(const fem::PointPlace&)>;
+
 /// Points of a solid that own a cell each. Disc cells answer for F in the plane (plane strain: quad4, quad8), sphere
-/// cells for any F. Point q of element e begins as cell (e + q) modulo their number. The density is the mean of the
-/// cells'. Each point is one task, longest first and serial inside: digits do not depend on the number of threads.
-/// The tangent is not symmetric. A point that has no answer says why: the step is cut.
+/// cells for any F. Without `deal`, point q of element e begins as cell (e + q) modulo their number. The density is
+/// the mean of the cells'. Each point is one task, longest first and serial inside: digits do not depend on the number
+/// of threads. The tangent is not symmetric. A point that has no answer says why: the step is cut.
 /// @param samples  cells of the same shape and springs, at rest and under pressure at F = 1
 /// @throws InputError for no cells, one that is not of that kind, or a setting that is not valid
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings = {});
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings = {},
+                                           Deal deal = {});
 
 /// The same for explicit dynamics. The tangent, from which stable steps follow, is voigtTangent: an upper bound.
-std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings);
+std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const DynamicCells& settings, Deal deal = {});
+
+/// Of the material that cells are, mean, kg/m³: the density of their field.
+double meanDensity(const std::vector<rve::Rve>& samples);
 
 /// Shows the cell of a point of such a field, in the order of open(), as it was committed last, while `visit` runs.
 /// @return whether there is one: other fields have none

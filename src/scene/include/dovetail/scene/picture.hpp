@@ -17,6 +17,7 @@ struct PictureOptions {
   bool film = false;                         ///< all frames as a GIF, otherwise one as a PNG
   int frame = -1;                            ///< from 0; negative: from the end
   std::optional<int> mode;                   ///< of the solids, from 1, in the place of a frame; films show all of them
+  std::string cell;                          ///< grains of this cell of the output, in place of the run's
   std::optional<double> azimuth, elevation;  ///< of the viewer, degrees; not given: from shape and gravity
   std::string grains, solids;                ///< fields that colour them, or "none"; empty: the first that frames have
   std::string lines = "none";                ///< "contacts" or "bonds": rods, coloured by the normal force

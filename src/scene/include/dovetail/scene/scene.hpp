@@ -121,11 +121,18 @@ struct Probe {
   std::variant<GrainProbe, NodeProbe, WallProbe, SolidProbe, DriveProbe, SupportProbe, RegionProbe, CellsProbe> of;
   std::string where;
 };
+/// A cell of grains of a solid, at the point that is nearest at the start, whose grains are frames of their own.
+struct ShownCell {
+  std::string name, solid;
+  Vec3 at = requiredVector;  ///< m
+  std::string where;
+};
 struct Output {
   std::optional<double> series, frames, checkpoints;                ///< intervals, s; not given: none
   std::vector<std::string> contents{"grains", "solids", "stress"};  ///< of frames
   bool hdf5 = false;                                                ///< the series as HDF5 too
   std::vector<Probe> probes;                                        ///< columns of the series
+  std::vector<ShownCell> cells;                                     ///< with frames of their own
   std::string where;
 };
 

@@ -55,7 +55,9 @@ struct DeformedMetric {
 };
 /// A cell of grains at every quadrature point, see hierarchical::cellField.
 struct GrainCells {
-  std::string cells;                           ///< name
+  enum class Deal { inTurn, byDepth };
+  std::string cells;  ///< name
+  Deal deal = Deal::inTurn;
   int tangent = 0;                             ///< hierarchical::Operator
   double inertialNumber = 1e-3;                ///< of load steps
   double strainPerStep = 3e-5, damping = 0.1;  ///< of explicit steps

@@ -1,0 +1,90 @@
+#include "dealt_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+#include "dovetail/core/finite.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/materials.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/rve/equilibrium.hpp"
+
+namespace dovetail::scene {
+
+namespace {
+
+constexpr double tolerance = 1e-4;  // of pressures, relative: a load on top is held as well
+constexpr double sameDepth = 1e-9;  // of the height of the solid
+constexpr int passes = 2;           // cells under more pressure are denser, and weigh more
+constexpr double bytesOfGrain = 1000.0;
+
+/// Depths of points below the highest node, m.
+class Depths {
+public:
+  Depths(const fem::SolidMesh& mesh, const Vec3& gravity) : down_(gravity / norm(gravity)) {
+    const auto along = [&](const Vec3& X) { return dot(down_, X); };
+    const auto [top, bottom] = std::ranges::minmax(mesh.X | std::views::transform(along));
+    top_ = top;
+    same_ = sameDepth * (bottom - top);
+  }
+  double of(const Vec3& X) const { return dot(down_, X) - top_; }
+
+  void add(const std::vector<Vec3>& points) {
+    for (const Vec3& X : points) levels_.push_back(of(X));
+    std::ranges::sort(levels_);
+    const auto rest = std::ranges::unique(levels_, [&](double a, double b) { return b - a <= same_; });
+    levels_.erase(rest.begin(), rest.end());
+  }
+  const std::vector<double>& levels() const { return levels_; }
+  /// Of levels(), the nearest.
+  std::size_t levelOf(const Vec3& X) const {
+    const double depth = of(X);
+    const auto nearer = [&](double a, double b) { return std::abs(a - depth) < std::abs(b - depth); };
+    return static_cast<std::size_t>(std::ranges::min_element(levels_, nearer) - levels_.begin());
+  }
+
+private:
+  Vec3 down_;
+  double top_, same_;
+  std::vector<double> levels_;
+};
+
+std::vector<Vec3> pointsOf(const CellElements& elements) {
+  const auto anyLaw = fem::pointMaterial(fem::StVenantKirchhoff{1.0, 0.0, 1.0});
+  return fem::makeSolid(elements.mesh, anyLaw, elements.options)->sample(fem::makeModel(elements.mesh).nodes, {}).X;
+}
+
+}  // namespace
+
+DealtCells pressedByDepth(const std::vector<rve::Rve>& cells, const CellElements& elements) {
+  const double weight = norm(elements.gravity);
+  if (!(weight > 0.0))
+    throw InputError("cells are dealt by depth, and no gravity acts on the solid", "deal",
+                     "give the scene a gravity, or leave \"deal\" out");
+  Depths depths(elements.mesh, elements.gravity);
+  depths.add(pointsOf(elements));
+  const std::size_t levels = depths.levels().size(), n = cells.size();
+  requireMemory(static_cast<double>(levels * n * cells.front().size()), "grains of cells", bytesOfGrain,
+                "take fewer cells, or a mesh in layers");
+  std::vector<rve::Rve> pressed(levels * n);
+  for (std::size_t k = 0; k < pressed.size(); ++k) pressed[k] = cells[k % n];
+  for (int pass = 0; pass < passes; ++pass) {
+    const double density = hierarchical::meanDensity(pressed);
+    parallelTasks(pressed.size(), [&](std::size_t k) {
+      const rve::Rve& begun = cells[k % n];
+      const double p = rve::stress(begun).pressure + density * weight * depths.levels()[k / n];
+      rve::compress(pressed[k], {.pressure = {p, p, p},
+                                 .friction = begun.springs.friction,
+                                 .tolerance = tolerance,
+                                 .rest = {.tolerance = restOfCells}});
+    });
+  }
+  auto deal = [depths, n](const fem::PointPlace& place) {
+    return depths.levelOf(place.X) * n + static_cast<std::size_t>(place.element + place.point) % n;
+  };
+  return {std::move(pressed), std::move(deal)};
+}
+
+}  // namespace dovetail::scene
