@@ -12,11 +12,4 @@ namespace dovetail::benchmark {
 /// contacts.
 rve::Rve elasticSpheres(int count, std::uint64_t seed);
 
-struct Moduli {
-  double bulk = 0.0, shear = 0.0;  // Pa
-};
-
-/// Differences of relaxed states under a small strain either way, during which nothing slips.
-Moduli probed(rve::Rve cell);
-
 }  // namespace dovetail::benchmark

@@ -8,7 +8,8 @@ FigureRow rowOf(const std::string& what, const std::vector<double>& values, doub
   double mean = 0.0, squares = 0.0;
   for (const double value : values) mean += value / n;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  return {what, mean, n > 1.0 ? std::sqrt(squares / (n - 1.0)) : 0.0, printed, allowed, note};
+  const double scatter = n > 1.0 ? std::sqrt(squares / (n - 1.0)) : 0.0;
+  return {what, mean, scatter, printed, allowed, note, false, values.size()};
 }
 
 }  // namespace dovetail::benchmark

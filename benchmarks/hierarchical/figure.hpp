@@ -14,9 +14,11 @@ struct FigureRow {
   double printed = 0.0;  ///< what is to be shown; NaN: nothing is printed, the row informs
   double allowed = 0.0;  ///< difference that is allowed
   std::string note = {};
+  bool atLeast = false;  ///< no less is printed
+  std::size_t packings = 1;
 
   bool judged() const { return std::isfinite(printed); }
-  bool holds() const { return std::abs(here - printed) <= allowed; }
+  bool holds() const { return atLeast ? here >= printed : std::abs(here - printed) <= allowed; }
 };
 using FigureRows = std::vector<FigureRow>;
 

@@ -1,6 +1,6 @@
 // The published figures on cells of grains, alone and in solids, beside what comes out here: one Markdown table.
-#include <chrono>
 #include <cstdio>
+#include <ctime>
 
 #include "dovetail/core/error.hpp"
 #include "figure.hpp"
@@ -16,21 +16,31 @@ const std::vector<Figure> figures{
     {"square-arrays", "Liu 2018, Fig. 2.4", squareArrays},
     {"lz19-cell", "Liang & Zhao 2019, biaxial compression", lz19Cell},
     {"operators", "Desrues et al. 2019, Table 1", operators},
-    {"simple-shear", "Liu 2018, Figs 2.7 and 2.10", simpleShear},
+    {"simple-shear", "Liu 2018, Figs 2.7, 2.10", simpleShear},
     {"servo", "Liu 2018, eqs 2.33, 2.34, Table 2.3", servoFrame},
-    {"mixed-layer", "Liu 2018, Fig. 2.11", mixedLayer},
+    {"mixed-layer", "Liu 2018, sec. 2.6, Fig. 2.11", mixedLayer},
     {"string", "Liu 2018, Figs 4.4, 4.5", stringOfDiscs},
     {"strips", "Liu 2018, Figs 4.6 to 4.8 and 4.10", strips},
     {"biaxial", "Liu 2018, Figs 3.4, 3.10", biaxial},
     {"explicit-biaxial", "measured beforehand: 10 × 20 quad4, 800 cells", explicitBiaxial},
-    {"spheres", "Liu et al. 2015, Tables I, II", spheres},
+    {"spheres", "Liu et al. 2015, sec. 3.3, Tables I, II", spheres},
     {"column", "Liu et al. 2015, sec. 3.3, Fig. 8", column},
 };
 
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+std::string printedIn(const FigureRow& row) {
+  if (!row.judged()) return "";
+  char text[64];
+  if (row.atLeast)
+    std::snprintf(text, sizeof text, "≥ %.5g", row.printed);
+  else
+    std::snprintf(text, sizeof text, "%.5g ± %.2g", row.printed, row.allowed);
+  return text;
+}
 
 std::string verdict(const FigureRow& row) {
-  if (!row.judged()) return "";
+  if (!row.judged()) return "shown";
   return row.holds() ? "holds" : "**missed**";
 }
 
@@ -42,11 +52,12 @@ bool show(const Figure& figure, bool quick) {
   bool all = true;
   for (const FigureRow& row : rows) {
     all = all && (!row.judged() || row.holds());
-    std::printf("| %s | %s | %.5g ± %.2g | ", figure.name.c_str(), row.what.c_str(), row.here, row.scatter);
-    if (row.judged()) std::printf("%.5g ± %.2g", row.printed, row.allowed);
-    std::printf(" | %s | %s |\n", verdict(row).c_str(), row.note.c_str());
+    std::printf("| %s | %s | %s | %.5g ± %.2g", figure.name.c_str(), figure.source.c_str(), row.what.c_str(), row.here,
+                row.scatter);
+    if (row.packings > 1) std::printf(" (%zu)", row.packings);
+    std::printf(" | %s | %s | %s |\n", printedIn(row).c_str(), verdict(row).c_str(), row.note.c_str());
   }
-  std::printf("| %s | seconds (%s) | %.1f | | | |\n", figure.name.c_str(), figure.source.c_str(), took);
+  std::printf("| %s | | seconds of the processor | %.1f | | | |\n", figure.name.c_str(), took);
   std::fflush(stdout);
   return all;
 }
@@ -58,7 +69,8 @@ std::string names() {
 }
 
 bool run(bool quick, const std::string& only) {
-  std::printf("| figure | quantity | here | printed | | note |\n|---|---|---|---|---|---|\n");
+  std::printf(
+      "| figure | printed in | quantity | here (packings) | printed | | note |\n|---|---|---|---|---|---|---|\n");
   bool all = true;
   for (const Figure& figure : figures)
     if (only == "all" || only == figure.name) all = show(figure, quick) && all;
