@@ -20,7 +20,7 @@ using io::test::ScratchFolder;
 std::string runWith(const std::string& cells, double time = 0.01) {
   return R"("steps": {"safety": 0.8}, "stages": [{"do": "run", "time": )" + std::to_string(time) +
          R"(}], "output": {"frames": 2e-3, "checkpoints": 4e-3, "cells": )" + cells +
-         R"(, "contents": ["solids", "stress", "strain", "cells", "points", "contacts"]})";
+         R"(, "contents": ["solids", "stress", "strain", "cells", "points", "contacts", "spin"]})";
 }
 const std::string corner = R"([{"name": "corner", "solid": "block", "at": [0, 0, 0]}])";
 const Scene shown = blockScene(runWith(corner));
@@ -65,10 +65,12 @@ TEST(CellFrames, GrainsOfACellCarryItsStress) {
   const ScratchFolder folder;
   std::ostringstream log;
   ASSERT_TRUE(run(shown, {.folder = folder / "out", .progress = false}, log));
+  EXPECT_EQ(log.str().find("no grains"), std::string::npos);  // contacts and spins are those of the cell
   const FrameContent grains = lastFrame(folder / "out/cell_corner.pvd"),
                      lines = lastFrame(folder / "out/cell_corner_contacts.pvd"),
                      points = lastFrame(folder / "out/points_block.pvd");
   ASSERT_EQ(grains.position.size(), 60U);
+  EXPECT_EQ(valuesOf(grains, "spin", false).size(), 3 * 60U);
   // Σ f ⊗ b over the volume is the stress of the point: with the area of the grains and the void ratio of the point.
   double area = 0.0, yy = 0.0, xy = 0.0, sliding = 0.0;  // xy: symmetric, as the stress is
   for (const double r : valuesOf(grains, "radius", false)) area += 3.14159265358979 * r * r;

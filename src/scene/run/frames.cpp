@@ -79,7 +79,8 @@ void requireFrames(const Output& output) {
                                      {"strain", "solids"},
                                      {"cells", "solids"},
                                      {"history", "solids"}})
-    if (has(word) && !has(bearer) && !(bearer == std::string("solids") && has("points")))
+    if (has(word) && !has(bearer) && !(bearer == std::string("solids") && has("points")) &&
+        !(word == std::string("spin") && !output.cells.empty()))
       throw InputError(std::string("contents has \"") + word + "\", but no \"" + bearer + "\"", output.where,
                        std::string("add \"") + bearer + "\"" +
                            (bearer == std::string("solids") ? " or \"points\"" : "") + ", or leave it out");

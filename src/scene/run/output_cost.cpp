@@ -151,7 +151,7 @@ void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
        {Part{"weights", "overlap", std::ranges::any_of(scene.couplings, isOverlap)},
         Part{"history", "solid that yields", std::ranges::any_of(scene.solids, flows)},
         Part{"cells", "solid of cells", !scene.cells.empty()}, Part{"grains", "grains", anyGrains},
-        Part{"contacts", "grains", anyGrains}, Part{"bonds", "bonds", !scene.bonds.empty()},
+        Part{"contacts", "grains", anyGrains || !out.cells.empty()}, Part{"bonds", "bonds", !scene.bonds.empty()},
         Part{"solids", "solids", !built.meshes.empty()}, Part{"points", "solids", !built.meshes.empty()},
         Part{"walls", "wall that is a mesh", !grains.terms.all<dem::MeshWallTerm>().empty()}})
     if (!part.isThere && std::ranges::find(out.contents, part.word) != out.contents.end())
