@@ -1,7 +1,6 @@
 // Points of solids and grains of their cells in frames.
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "../io/scratch_folder.hpp"
@@ -91,22 +90,30 @@ TEST(CellFrames, GrainsOfACellCarryItsStress) {
   EXPECT_NEAR(sliding, valuesOf(points, "sliding", false)[nearest], 1e-12);
 }
 
-std::string textOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+/// Bit by bit; the provenance, which names the threads, apart.
+void expectSameFrames(const FrameContent& a, const FrameContent& b) {
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_TRUE(a.cellType == b.cellType && a.cellEnd == b.cellEnd && a.cellPoint == b.cellPoint);
+  EXPECT_EQ(a.position, b.position);
+  ASSERT_EQ(a.arrays.size(), b.arrays.size());
+  for (std::size_t k = 0; k < a.arrays.size(); ++k) {
+    EXPECT_EQ(a.arrays[k].name, b.arrays[k].name);
+    EXPECT_EQ(a.arrays[k].values, b.arrays[k].values) << a.arrays[k].name;
+  }
 }
 
 TEST(CellFrames, AreTheSameAfterABreak) {
   const ScratchFolder folder;
   std::ostringstream log;
-  ASSERT_TRUE(run(shown, {.folder = folder / "whole", .progress = false}, log));
-  ASSERT_TRUE(run(blockScene(runWith(corner, 0.004)), {.folder = folder / "broken", .progress = false}, log));
+  ASSERT_TRUE(run(shown, {.folder = folder / "whole", .progress = false, .threads = 1}, log));
+  ASSERT_TRUE(
+      run(blockScene(runWith(corner, 0.004)), {.folder = folder / "broken", .progress = false, .threads = 1}, log));
   ASSERT_TRUE(resume({.folder = folder / "broken", .progress = false, .until = 0.01, .threads = 2}, log));
-  for (const char* const name : {"points_block", "cell_corner", "cell_corner_contacts"}) {
-    const auto whole = io::readPvd(folder / "whole" / (name + std::string(".pvd")));
-    const auto broken = io::readPvd(folder / "broken" / (name + std::string(".pvd")));
-    ASSERT_EQ(whole.size(), broken.size());
-    EXPECT_TRUE(textOf(whole.back().second) == textOf(broken.back().second)) << name;
+  for (const std::string name : {"points_block", "cell_corner", "cell_corner_contacts"}) {
+    SCOPED_TRACE(name);
+    ASSERT_EQ(io::readPvd(folder / ("whole/" + name + ".pvd")).size(),
+              io::readPvd(folder / ("broken/" + name + ".pvd")).size());
+    expectSameFrames(lastFrame(folder / ("whole/" + name + ".pvd")), lastFrame(folder / ("broken/" + name + ".pvd")));
   }
 }
 
