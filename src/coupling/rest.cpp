@@ -6,7 +6,6 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/setup/relax.hpp"
-#include "dovetail/fem/elements/solid.hpp"
 #include "run_impl.hpp"
 
 namespace dovetail::coupling {
@@ -41,15 +40,14 @@ void CoupledRun::stop() {
                             {after.momentum - before.momentum, after.angularMomentum - before.angularMomentum});
 }
 
-/// Of contacts, elements and connectors, J: neither of weights nor of loads, whose zero is anywhere.
+/// Of contacts, elements, gradients and connectors, J: neither of weights nor of loads, whose zero is anywhere.
 static double elasticEnergy(CoupledRun& run) {
   double sum = dem::energies(run.grains).contacts;
   for (const auto* connector : run.grains.terms.all<Connector>()) sum += connector->stored();
   for (std::size_t k = 0; k < run.solids(); ++k) {
     const fem::Model& model = *run.solid(k).model;
     for (const auto& term : model.terms)
-      if (auto* const elements = dynamic_cast<fem::Solid*>(term.get()))
-        sum += elements->energy(model.nodes, {.t = model.t});
+      if (term->actsWithin()) sum += term->energy(model.nodes, {.t = model.t});
   }
   return sum;
 }

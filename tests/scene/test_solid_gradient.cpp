@@ -1,5 +1,7 @@
 // Solids with the energy of the gradient of F, beside all that they can meet.
 #include "../threads.hpp"
+#include "build/changes.hpp"
+#include "dovetail/coupling/rest.hpp"
 #include "dovetail/scene/read.hpp"
 #include "loaded_bars.hpp"
 #include "warning_parts.hpp"
@@ -111,6 +113,15 @@ TEST(SolidGradient, IsLoadedInStepsAndAlongItsPath) {
   }
 }
 
+TEST(SolidGradient, CountsAsElasticOnTheWayToRest) {
+  Built built = started(sceneOf(sheet(R"("formulation": "reduced", "gradient": {"modulus": "1 MN"},
+      "supports": [{"on": "y-"}], "loads": [{"on": "y+", "type": "traction", "traction": [0, "-20 kPa", 0]}])")));
+  const RestReport report = coupling::relax(*built.run, {.tolerance = 1e-9, .steps = 20});
+  const double elements = channel(built, "soil: elements"), inGradient = channel(built, "soil: gradient of F");
+  EXPECT_GT(inGradient, 0.1 * elements);
+  EXPECT_NEAR(report.residual, built.run->kineticEnergy() / (elements + inGradient), 1e-9 * report.residual);
+}
+
 TEST(SolidGradient, SetsTheStepAndIsNamedForIt) {
   const std::string stiff = R"("formulation": "reduced", "gradient": {"modulus": 1e12}, )";
   expectParts(refusalOfRun(sheet(stiff + pressed)), {"gradient of F", "soil"});
@@ -129,6 +140,37 @@ TEST(SolidGradient, EndsAtTiesWhichIsTold) {
       "ties": [{"nodes": "some", "faces": "x-", "tolerance": 2}], "supports": [{"on": "y-"}])";
   expectParts(warningsOf(sheet(reduced + tied)), {"gradient", "soil", "ends at its ties"});
   EXPECT_EQ(warningsOf(sheet(R"("formulation": "reduced")" + tied)).find("ends at its ties"), std::string::npos);
+}
+
+/// Beside elastic and softer parts, as supports take another speed and go.
+TEST(SolidGradient, KeepsItsBooksInRegionsAndThroughChanges) {
+  const std::string regions = R"(, "sets": [{"name": "top", "place": "box", "box": [[0, 1.5, -1], [1, 2, 1]]},
+      {"name": "spot", "place": "box", "box": [[0, 0.25, -1], [0.5, 0.75, 1]]}],
+      "regions": [{"elements": "top", "material": {"law": "neo-Hookean", "youngs_modulus": 1e8, "poisson_ratio": 0.2,
+                   "density": 2500}},
+                  {"elements": "spot", "material": {"law": "Drucker-Prager", "youngs_modulus": 50e6,
+                   "poisson_ratio": 0.3, "density": 2000, "cohesion": 40e3, "cohesion_curve":
+                   [{"plastic_strain": 0.2, "cohesion": 20e3}], "friction_angle": 0.3}}],
+      "supports": [{"on": "y-"}, {"on": "y+", "velocity": [0, -1, 0]}])";
+  const auto stage = [](const std::string& change) {
+    return R"({"do": "run", "time": 1, "changes": {"supports": [{"solid": "soil", "on": "y+", )" + change + "}]}}";
+  };
+  const std::string stiff = R"("formulation": "reduced", "gradient": {"modulus": "100 kN"})";
+  const Scene scene =
+      sceneFromText("{" + sheet(stiff + regions) + R"("steps": {"dt": 2e-5}, "stages": [{"do": "run", "time": 1}, )" +
+                        stage(R"("velocity": [0.5, -0.5, 0])") + ", " + stage(R"("present": false)") + "]}",
+                    "s.json", "/");
+  Built built = started(scene);
+  double before = 0.0, work = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (k > 0) beginStage(built, scene, k, startOf(built, scene, k), Grains::areThere);
+    EXPECT_NEAR(channel(built, "soil: gradient of F"), before, 1e-12) << "stage " << k;
+    built.run->advance(500);
+    before = channel(built, "soil: gradient of F");
+    work = std::max(work, std::abs(channel(built, "soil: supports")));
+    EXPECT_GT(before, 0.0) << "stage " << k;
+    EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-3 * work) << "stage " << k << ", gradient " << before;
+  }
 }
 
 }  // namespace
