@@ -7,6 +7,7 @@
 
 #include "build/parts.hpp"
 #include "build/sizes.hpp"
+#include "cell_fields.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
@@ -41,15 +42,15 @@ std::int64_t timesWritten(const Plan& plan, const Scene& scene, std::int64_t eve
 
 constexpr double number = 8.0, vector = 3.0 * number, cell = 2.0 * number + 1.0, line = 2.0 * vector + 3.0 * number;
 
+constexpr double grain = 2.0 * vector + 2.0 * number + cell, force = vector + 4.0 * number;
+constexpr double touching = 2.0;  // contacts a grain of a bed
+
 double bytesOfGrains(const dem::Model& grains, double count, const std::vector<std::string>& contents) {
   const auto has = [&](const char* word) { return std::ranges::find(contents, word) != contents.end(); };
-  double each = 0.0;
-  if (has("grains")) each += 2.0 * vector + 2.0 * number + cell;
+  double each = has("grains") ? grain : 0.0;
   for (const auto& [word, bytes] : {std::pair{"spin", vector}, {"forces", vector}, {"weights", number}})
     if (has(word)) each += bytes;
   double bytes = each * count;
-  constexpr double touching = 2.0;  // contacts a grain of a bed
-  const double force = vector + 4.0 * number;
   if (has("contacts"))
     bytes += (line + force) * std::max(static_cast<double>(dem::sampleContacts(grains).size()), touching * count);
   if (has("bonds"))
@@ -61,6 +62,17 @@ double bytesOfGrains(const dem::Model& grains, double count, const std::vector<s
       bytes += vector * static_cast<double>(wall.x.size()) +
                (2.0 * vector + 2.0 * number) * static_cast<double>(wall.facets.size());
     }
+  return bytes;
+}
+
+double bytesOfCells(const Built& built, const Output& output) {
+  const auto has = [&](const char* word) { return std::ranges::find(output.contents, word) != output.contents.end(); };
+  double bytes = 0.0;
+  for (const CellPoint& shown : shownCells(built, output))
+    visit(shown, [&](const rve::Rve& rve) {
+      bytes += (grain + (has("spin") ? vector : 0.0)) * static_cast<double>(rve.radius.size());
+      if (has("contacts")) bytes += (line + force) * touching * static_cast<double>(rve.radius.size());
+    });
   return bytes;
 }
 
@@ -99,7 +111,8 @@ Frames framesOf(const Built& built, const Scene& scene, const Plan& plan) {
     return statics && !statics->time && !statics->arcLength;
   });
   return {timesWritten(plan, scene, plan.frames) - (plan.frames > 0 ? replaced : 0),
-          head + bytesOfGrains(grains, count, scene.output.contents) + bytesOfSolids(built, scene.output.contents)};
+          head + bytesOfGrains(grains, count, scene.output.contents) + bytesOfCells(built, scene.output) +
+              bytesOfSolids(built, scene.output.contents)};
 }
 
 std::string room(double bytes) {
