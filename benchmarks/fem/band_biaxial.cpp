@@ -100,6 +100,7 @@ BiaxialCourse pressTogether(const BandBiaxial& s, const std::vector<BandPart>& p
   fem::ExplicitIntegrator run(model, course.step, {.energyEvery = 50, .checkEvery = 10});
   const std::vector<int>& plate = fem::nodeSet(mesh, "y+");
   const auto strain = [&] { return -model.nodes.u[static_cast<std::size_t>(plate.front())].y / height; };
+  const auto residual = [&] { return run.ledger().largestResidual() / std::abs(run.ledger().joules("supports")); };
   double sum = 0.0, mark = 0.0025;
   int count = 0, means = 0;
   try {
@@ -109,6 +110,10 @@ BiaxialCourse pressTogether(const BandBiaxial& s, const std::vector<BandPart>& p
       for (const int n : plate) sum += model.nodes.f[static_cast<std::size_t>(n)].y;
       ++count;
       if (strain() < mark) continue;
+      if (residual() > brokenResidual) {
+        course.broken = strain();
+        break;
+      }
       course.peak = std::max(course.peak, sum / count);
       if (++means % 4 == 0) {
         course.looks.push_back(shearOf(model));
@@ -118,10 +123,10 @@ BiaxialCourse pressTogether(const BandBiaxial& s, const std::vector<BandPart>& p
       sum = 0.0, count = 0;
     }
   } catch (const NumericalError&) {
-    course.turned = strain();
+    course.broken = strain();
   }
   course.seconds = static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC;
-  course.residual = run.ledger().largestResidual() / std::abs(run.ledger().joules("supports"));
+  course.residual = residual();
   return course;
 }
 

@@ -40,12 +40,15 @@ struct BandLook {
 struct BiaxialCourse {
   std::vector<BandLook> looks;
   double peak = 0.0;    ///< largest mean over 0.25 %, Pa
-  double turned = 0.0;  ///< mean axial strain at which an element turned inside out; 0: none did
+  double broken = 0.0;  ///< mean axial strain where an element turned inside out or brokenResidual was passed; 0: none
   double step = 0.0;    ///< s
   std::int64_t steps = 0;
   double seconds = 0.0;   ///< of the processor
   double residual = 0.0;  ///< of the ledger over the work of the plates
 };
+
+/// Of the ledger over the work: runs that lose more are broken off.
+constexpr double brokenResidual = 0.01;
 
 /// What the points of solids have of shear.
 BandLook shearOf(const fem::Model& model);

@@ -70,8 +70,8 @@ void showCourse(const BandBiaxial& s, std::FILE* csv) {
       std::fprintf(csv, "%s,%d,%g,%g,%.2f,%.6g,%.4f,%.4f\n", fem::name(s.shape), s.across, s.modulus, s.skew,
                    0.01 * static_cast<double>(k + 1), look.axial, look.fraction, look.largest);
   }
-  if (course.turned > 0.0)
-    std::printf(" turned at %.2f %% |", 100.0 * course.turned);
+  if (course.broken > 0.0)
+    std::printf(" broken at %.2f %% |", 100.0 * course.broken);
   else
     std::printf(" %.2f |", course.looks.back().largest);
   std::printf(" %.2e | %.0f | %.1e |\n", course.step, course.seconds, course.residual);

@@ -42,7 +42,7 @@ TEST(Bands, OfPressedSandAreThoseOfEveryMeshWithTheGradientAlone) {
   const BiaxialCourse with[] = {pressed(6, wide), pressed(9, wide)};
   for (const BiaxialCourse& course : {local[0], local[1], with[0], with[1]}) {
     ASSERT_EQ(course.looks.size(), 3U);
-    EXPECT_EQ(course.turned, 0.0);
+    EXPECT_EQ(course.broken, 0.0);
     EXPECT_LT(course.residual, 1e-6);
   }
   const auto apart = [](const BiaxialCourse(&of)[2], std::size_t k, double BandLook::*value) {
