@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -25,17 +24,17 @@ class Depths {
 public:
   Depths(const fem::SolidMesh& mesh, const Vec3& gravity) : down_(gravity / norm(gravity)) {
     const auto along = [&](const Vec3& X) { return dot(down_, X); };
-    const auto [top, bottom] = std::ranges::minmax(mesh.X | std::views::transform(along));
-    top_ = top;
-    same_ = sameDepth * (bottom - top);
+    const auto [top, bottom] = std::ranges::minmax(mesh.X, {}, along);
+    top_ = along(top);
+    same_ = sameDepth * (along(bottom) - top_);
   }
   double of(const Vec3& X) const { return dot(down_, X) - top_; }
 
   void add(const std::vector<Vec3>& points) {
     for (const Vec3& X : points) levels_.push_back(of(X));
     std::ranges::sort(levels_);
-    const auto rest = std::ranges::unique(levels_, [&](double a, double b) { return b - a <= same_; });
-    levels_.erase(rest.begin(), rest.end());
+    const auto isSame = [&](double a, double b) { return b - a <= same_; };
+    levels_.erase(std::unique(levels_.begin(), levels_.end(), isSame), levels_.end());
   }
   const std::vector<double>& levels() const { return levels_; }
   /// Of levels(), the nearest.

@@ -129,17 +129,17 @@ void Frames::Impl::addPoints(std::size_t s, const Built& built, double time) {
 
 void Frames::Impl::addCell(CellSeries& to, double time) {
   visit(to.place, [&](const rve::Rve& cell) {
-    const CellGrains grains = grainsOf(cell);
-    io::ParticleFrame frame{.position = grains.x,
+    const CellGrains own = grainsOf(cell);
+    io::ParticleFrame frame{.position = own.x,
                             .radius = cell.radius,
-                            .velocity = grains.v,
+                            .velocity = own.v,
                             .force = {},
                             .id = {},
                             .vectors = {},
                             .scalars = {}};
-    if (has("spin")) frame.vectors.push_back({"spin", grains.spin});
+    if (has("spin")) frame.vectors.push_back({"spin", own.spin});
     to.grains.write(time, frame);
-    if (!to.contacts.empty()) addLines(to.contacts[0], time, grains.contacts);
+    if (!to.contacts.empty()) addLines(to.contacts[0], time, own.contacts);
   });
 }
 
@@ -149,7 +149,7 @@ void Frames::Impl::dropLast() {
   for (PointSeries& one : points) one.series.dropLast();
   for (CellSeries& one : cells) {
     one.grains.dropLast();
-    for (io::VtuSeries& contacts : one.contacts) contacts.dropLast();
+    for (io::VtuSeries& lines : one.contacts) lines.dropLast();
   }
   times.pop_back();
 }
