@@ -12,20 +12,16 @@ namespace dovetail::rve {
 
 namespace {
 
-constexpr std::size_t perNode = BlockGradients::perNode, columns = BlockGradients::columns;
+constexpr std::size_t perNode = perSphere, columns = BlockGradients::columns;
 using Lanes = std::array<std::array<double, columns>, perNode>;
 using Field = std::vector<Lanes>;
 using Sums = std::array<double, columns>;
-using Square = Eigen::Matrix<double, BlockGradients::perNode, BlockGradients::perNode>;
 
-/// y ← y + f A x, or Aᵀ x.
-template <bool transposed>
-[[gnu::always_inline]] inline void addProduct(double f, const double* __restrict block, const Lanes& x, Lanes& y) {
-  for (std::size_t r = 0; r < perNode; ++r)
-    for (std::size_t c = 0; c < perNode; ++c) {
-      const double a = f * block[transposed ? perNode * c + r : perNode * r + c];
-      for (std::size_t l = 0; l < columns; ++l) y[r][l] += a * x[c][l];
-    }
+/// y ← y − A x.
+[[gnu::always_inline]] inline void subtractProduct(const double* __restrict block, const Lanes& x, Lanes& y) {
+  for (std::size_t c = 0; c < perNode; ++c)
+    for (std::size_t r = 0; r < perNode; ++r)
+      for (std::size_t l = 0; l < columns; ++l) y[r][l] -= block[perNode * c + r] * x[c][l];
 }
 
 Sums innerProducts(const Field& a, const Field& b) {
@@ -63,93 +59,96 @@ Sums ratio(const Sums& a, const Sums& b, double sign = 1.0) {
 
 }  // namespace
 
-BlockGradients::BlockGradients(const std::vector<Block>& diagonal, const std::vector<Pair>& pairs)
-    : root_(diagonal.size()),
-      off_(diagonal.size()),
-      first_(diagonal.size() + 1, 0),
-      other_(pairs.size()),
-      lower_(pairs.size()),
-      upper_(pairs.size()) {
-  for (std::size_t i = 0; i < diagonal.size(); ++i) takeRoot(i, diagonal[i]);
-  for (const Pair& pair : pairs) ++first_[static_cast<std::size_t>(pair.row) + 1];
-  for (std::size_t i = 0; i < diagonal.size(); ++i) first_[i + 1] += first_[i];
-  std::vector<int> next(first_.begin(), first_.end() - 1);
-  for (const Pair& pair : pairs) {
-    const auto i = static_cast<std::size_t>(pair.row), j = static_cast<std::size_t>(pair.column);
-    const auto at = static_cast<std::size_t>(next[i]++);
-    other_[at] = pair.column;
-    Eigen::Map<Block>(lower_[at].data()) = root_[i] * pair.lower * root_[j].transpose();
-    Eigen::Map<Block>(upper_[at].data()) = root_[j] * pair.upper * root_[i].transpose();
-  }
+BlockGradients::BlockGradients(const SphereRows& rows) : root_(rows.size()) {
+  for (std::size_t i = 0; i < rows.size(); ++i) root_[i] = rootOf(rows[i].at(static_cast<int>(i)));
+  for (std::size_t i = 0; i < rows.size(); ++i) addRow(rows, i);
 }
 
-void BlockGradients::takeRoot(std::size_t node, const Block& whole) {
-  const Square symmetric = 0.5 * (whole + whole.transpose());
-  const Eigen::LLT<Square> factor(symmetric);
+void BlockGradients::addRow(const SphereRows& rows, std::size_t i) {
+  for (const auto& [column, block] : rows[i]) {
+    const auto j = static_cast<std::size_t>(column);
+    const SphereBlock scaled = root_[i] * block * root_[j].transpose(),
+                      opposite = root_[j] * rows[j].at(static_cast<int>(i)) * root_[i].transpose();
+    for (const bool transposed : {false, true}) {
+      Matrix& matrix = transposed ? transposed_ : plain_;
+      const SphereBlock value = transposed ? SphereBlock(opposite.transpose()) : scaled;
+      Numbers numbers;
+      Eigen::Map<SphereBlock> map(numbers.data());
+      if (i == j) {
+        map = 2.0 * SphereBlock::Identity() - value;
+        matrix.rest.push_back(numbers);
+      } else {
+        map = value;
+        Triangle& triangle = j < i ? matrix.lower : matrix.upper;
+        triangle.other.push_back(column);
+        triangle.blocks.push_back(numbers);
+      }
+    }
+  }
+  for (Matrix* matrix : {&plain_, &transposed_})
+    for (Triangle* triangle : {&matrix->lower, &matrix->upper})
+      triangle->first.push_back(static_cast<int>(triangle->other.size()));
+}
+
+SphereBlock BlockGradients::rootOf(const SphereBlock& whole) {
+  const SphereBlock symmetric = 0.5 * (whole + whole.transpose());
+  const Eigen::LLT<SphereBlock> factor(symmetric);
   const auto pivots = factor.matrixLLT().diagonal().array().square();
-  if (factor.info() == Eigen::Success && pivots.minCoeff() > 1e-6 * pivots.maxCoeff()) {
-    root_[node] = factor.matrixL().solve(Block::Identity());
-  } else {  // grains that few touch are held by their neighbours only
-    const Eigen::SelfAdjointEigenSolver<Square> solver(symmetric);
-    const double least = std::max(1e-2 * solver.eigenvalues().maxCoeff(), std::numeric_limits<double>::min());
-    root_[node] =
-        solver.eigenvalues().array().max(least).rsqrt().matrix().asDiagonal() * solver.eigenvectors().transpose();
-  }
-  Eigen::Map<Block>(off_[node].data()) = root_[node] * whole * root_[node].transpose() - Block::Identity();
+  if (factor.info() == Eigen::Success && pivots.minCoeff() > 1e-6 * pivots.maxCoeff())
+    return factor.matrixL().solve(SphereBlock::Identity());
+  // held by their neighbours only
+  const Eigen::SelfAdjointEigenSolver<SphereBlock> solver(symmetric);
+  const double least = std::max(1e-2 * solver.eigenvalues().maxCoeff(), std::numeric_limits<double>::min());
+  return solver.eigenvalues().array().max(least).rsqrt().matrix().asDiagonal() * solver.eigenvectors().transpose();
 }
 
-/// (1 + L) to = from; transposed: (1 + Uᵀ) to = from.
-template <BlockGradients::Use use>
-void BlockGradients::down(const Field& from, Field& to) const {
-  constexpr bool transposed = use == Use::transposed;
-  const std::vector<Numbers>& blocks = transposed ? upper_ : lower_;
+/// (1 + L) to = from.
+void BlockGradients::down(const Triangle& lower, const Field& from, Field& to) {
   withVectors([&] {
     for (std::size_t i = 0; i < from.size(); ++i) {
       Lanes sum = from[i];
-      for (int e = first_[i]; e < first_[i + 1]; ++e) {
+      for (int e = lower.first[i]; e < lower.first[i + 1]; ++e) {
         const auto at = static_cast<std::size_t>(e);
-        addProduct<transposed>(-1.0, blocks[at].data(), to[static_cast<std::size_t>(other_[at])], sum);
+        subtractProduct(lower.blocks[at].data(), to[static_cast<std::size_t>(lower.other[at])], sum);
       }
       to[i] = sum;
     }
   });
 }
 
-/// (1 + U) to = from; transposed: (1 + Lᵀ) to = from.
-template <BlockGradients::Use use>
-void BlockGradients::up(const Field& from, Field& to) const {
-  constexpr bool transposed = use == Use::transposed;
-  const std::vector<Numbers>& blocks = transposed ? lower_ : upper_;
+/// (1 + U) to = from.
+void BlockGradients::up(const Triangle& upper, const Field& from, Field& to) {
   withVectors([&] {
-    to = from;
-    for (std::size_t i = from.size(); i-- > 0;)
-      for (int e = first_[i]; e < first_[i + 1]; ++e) {
+    for (std::size_t i = from.size(); i-- > 0;) {
+      Lanes sum = from[i];
+      for (int e = upper.first[i]; e < upper.first[i + 1]; ++e) {
         const auto at = static_cast<std::size_t>(e);
-        addProduct<transposed>(-1.0, blocks[at].data(), to[i], to[static_cast<std::size_t>(other_[at])]);
+        subtractProduct(upper.blocks[at].data(), to[static_cast<std::size_t>(upper.other[at])], sum);
       }
+      to[i] = sum;
+    }
   });
 }
 
-/// With K = 1 + O + L + U the preconditioned matrix is (1 + L)⁻¹ K (1 + U)⁻¹, and its product with p is t + (1 + L)⁻¹
-/// (p − t + O t), t = (1 + U)⁻¹ p.
-template <BlockGradients::Use use>
-void BlockGradients::product(const Field& way, Field& work, Field& image) const {
-  up<use>(way, work);
+/// The preconditioned matrix is (1 + L)⁻¹ K (1 + U)⁻¹, and its product with p is t + (1 + L)⁻¹ (p − (1 − O) t),
+/// t = (1 + U)⁻¹ p.
+void BlockGradients::product(const Matrix& matrix, const Field& way, Field& work, Field& image) {
+  up(matrix.upper, way, work);
   withVectors([&] {
     for (std::size_t i = 0; i < way.size(); ++i) {
-      for (std::size_t r = 0; r < perNode; ++r)
-        for (std::size_t l = 0; l < columns; ++l) image[i][r][l] = way[i][r][l] - work[i][r][l];
-      addProduct<use == Use::transposed>(1.0, off_[i].data(), work[i], image[i]);
+      Lanes sum = way[i];
+      subtractProduct(matrix.rest[i].data(), work[i], sum);
+      image[i] = sum;
     }
   });
-  down<use>(image, image);
+  down(matrix.lower, image, image);
   combine(image, ones, work, ones);
 }
 
 BlockGradients::Field BlockGradients::scaled(const Eigen::MatrixXd& b) const {
   Field field(root_.size(), Lanes{});
   for (std::size_t i = 0; i < field.size(); ++i) {
-    const Eigen::MatrixXd part = root_[i] * b.middleRows<perNode>(static_cast<Eigen::Index>(perNode * i));
+    const Eigen::MatrixXd part = root_[i] * b.middleRows<perSphere>(static_cast<Eigen::Index>(perNode * i));
     for (std::size_t r = 0; r < perNode; ++r)
       for (Eigen::Index c = 0; c < b.cols(); ++c)
         field[i][r][static_cast<std::size_t>(c)] = part(static_cast<Eigen::Index>(r), c);
@@ -158,20 +157,20 @@ BlockGradients::Field BlockGradients::scaled(const Eigen::MatrixXd& b) const {
 }
 
 void BlockGradients::unscaled(const Field& x, Eigen::MatrixXd& b) const {
-  Eigen::Matrix<double, perNode, Eigen::Dynamic> part(static_cast<Eigen::Index>(perNode), b.cols());
+  Eigen::Matrix<double, perSphere, Eigen::Dynamic> part(static_cast<Eigen::Index>(perSphere), b.cols());
   for (std::size_t i = 0; i < x.size(); ++i) {
     for (std::size_t r = 0; r < perNode; ++r)
       for (Eigen::Index c = 0; c < b.cols(); ++c)
         part(static_cast<Eigen::Index>(r), c) = x[i][r][static_cast<std::size_t>(c)];
-    b.middleRows<perNode>(static_cast<Eigen::Index>(perNode * i)) = root_[i].transpose() * part;
+    b.middleRows<perSphere>(static_cast<Eigen::Index>(perNode * i)) = root_[i].transpose() * part;
   }
 }
 
 bool BlockGradients::solve(Eigen::MatrixXd& b, Eigen::MatrixXd& g, double tolerance, int iterations) const {
   const std::size_t n = root_.size();
   Field rest = scaled(b), restToo = scaled(g), x(n, Lanes{}), y = x, work(n), image(n), imageToo(n);
-  down<Use::plain>(rest, rest);
-  down<Use::transposed>(restToo, restToo);
+  down(plain_.lower, rest, rest);
+  down(transposed_.lower, restToo, restToo);
   Field way = rest, wayToo = restToo;
   const auto size2 = [&] {
     Sums both = innerProducts(rest, rest);
@@ -188,8 +187,8 @@ bool BlockGradients::solve(Eigen::MatrixXd& b, Eigen::MatrixXd& g, double tolera
   Sums both = innerProducts(restToo, rest);
   for (int k = 0; !isThere(size2()); ++k) {
     if (k == iterations) return false;
-    product<Use::plain>(way, work, image);
-    product<Use::transposed>(wayToo, work, imageToo);
+    product(plain_, way, work, image);
+    product(transposed_, wayToo, work, imageToo);
     const Sums curvature = innerProducts(wayToo, image), step = ratio(both, curvature),
                back = ratio(both, curvature, -1.0);
     combine(x, ones, way, step);
@@ -201,9 +200,9 @@ bool BlockGradients::solve(Eigen::MatrixXd& b, Eigen::MatrixXd& g, double tolera
     combine(wayToo, keep, restToo, ones);
     both = now;
   }
-  up<Use::plain>(x, work);
+  up(plain_.upper, x, work);
   unscaled(work, b);
-  up<Use::transposed>(y, work);
+  up(transposed_.upper, y, work);
   unscaled(work, g);
   return true;
 }

@@ -5,24 +5,20 @@
 #include <array>
 #include <vector>
 
+#include "condensation.hpp"
+
 namespace dovetail::rve {
 
-/// Systems K x = b and Kᵀ y = g of 6 × 6 blocks, symmetric in pattern and nearly so in value, of as many right-hand
-/// sides at once as vector registers have lanes. Fletcher's bi-conjugate gradients, preconditioned by symmetric Gauss
-/// and Seidel, whose two triangular systems take the place of the product with the matrix (Eisenstat, SIAM J. Sci.
-/// Stat. Comput. 2, 1981): a pass over the blocks down and one up are half an iteration. A few directions in which K is
-/// not positive do no harm.
+/// Systems K x = b and Kᵀ y = g, symmetric in pattern and nearly so in value, of as many right-hand sides at once as
+/// vector registers have lanes. Fletcher's bi-conjugate gradients, preconditioned by symmetric Gauss and Seidel, whose
+/// two triangular systems take the place of the product with the matrix (Eisenstat, SIAM J. Sci. Stat. Comput. 2,
+/// 1981): a pass over the blocks down and one up are half an iteration. A few directions in which K is not positive do
+/// no harm.
 class BlockGradients {
 public:
-  static constexpr int perNode = 6, columns = 8;
-  using Block = Eigen::Matrix<double, perNode, perNode, Eigen::RowMajor>;
-  struct Pair {
-    int row, column;     ///< row > column
-    Block lower, upper;  ///< at (row, column), and at (column, row)
-  };
+  static constexpr int columns = 8;
 
-  /// @param diagonal  of each node
-  BlockGradients(const std::vector<Block>& diagonal, const std::vector<Pair>& pairs);
+  explicit BlockGradients(const SphereRows& rows);
 
   /// Overwrites at most `columns` columns of b by x, and as many of g by y.
   /// @param tolerance  of the mean of both residuals, relative, in the norm of the preconditioner
@@ -30,24 +26,28 @@ public:
   bool solve(Eigen::MatrixXd& b, Eigen::MatrixXd& g, double tolerance, int iterations) const;
 
 private:
-  using Lanes = std::array<std::array<double, columns>, perNode>;
+  using Lanes = std::array<std::array<double, columns>, perSphere>;
   using Field = std::vector<Lanes>;
-  using Numbers = std::array<double, perNode * perNode>;
-  enum class Use { plain, transposed };
-  void takeRoot(std::size_t node, const Block& whole);
-  template <Use use>
-  void down(const Field& from, Field& to) const;
-  template <Use use>
-  void up(const Field& from, Field& to) const;
-  template <Use use>
-  void product(const Field& way, Field& work, Field& image) const;
+  using Numbers = std::array<double, perSphere * perSphere>;  // by columns
+  struct Triangle {
+    std::vector<int> first{0}, other;  // of each row; columns of blocks
+    std::vector<Numbers> blocks;
+  };
+  /// K, or Kᵀ, with the roots taken out: 1 + O + L + U.
+  struct Matrix {
+    Triangle lower, upper;
+    std::vector<Numbers> rest;  // 1 − O
+  };
+  static SphereBlock rootOf(const SphereBlock& whole);
+  static void down(const Triangle& lower, const Field& from, Field& to);
+  static void up(const Triangle& upper, const Field& from, Field& to);
+  static void product(const Matrix& matrix, const Field& way, Field& work, Field& image);
+  void addRow(const SphereRows& rows, std::size_t i);
   Field scaled(const Eigen::MatrixXd& b) const;
   void unscaled(const Field& x, Eigen::MatrixXd& b) const;
 
-  std::vector<Block> root_;   // R with R D Rᵀ = 1 of a positive definite D close to that of a node
-  std::vector<Numbers> off_;  // what R D Rᵀ differs from 1 for the node's own
-  std::vector<int> first_{0}, other_;
-  std::vector<Numbers> lower_, upper_;  // with the roots of both nodes taken out
+  std::vector<SphereBlock> root_;  // R with R D Rᵀ = 1 of a positive definite D close to that of a node
+  Matrix plain_, transposed_;
 };
 
 }  // namespace dovetail::rve

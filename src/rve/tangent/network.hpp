@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "condensation.hpp"
 #include "contacts/linear_contact.hpp"
 #include "dovetail/linalg/multifrontal_lu.hpp"
 #include "frame_rows.hpp"
@@ -20,8 +21,9 @@ public:
 
   /// What is conjugate to strain, V σ, by strain while all grains move and turn with it, J.
   const Eigen::MatrixXd& stressByStrain() const { return stressByStrain_; }
-  /// The same after what is unbalanced has been relaxed: of spheres by bi-conjugate gradients, to 1e-8 of its norm, or
-  /// factorised where these do not converge. @throws NumericalError if the network is singular
+  /// The same after what is unbalanced has been relaxed: of spheres by bi-conjugate gradients on what is left when
+  /// grains with few contacts are eliminated, to 1e-6 of its norm or better, or factorised where these do not converge.
+  /// @throws NumericalError if the network is singular
   Eigen::MatrixXd relaxedStressByStrain();
   /// Displacements and turns that would balance the forces now. @throws NumericalError if the network is singular
   void solve(Components& w, Components& theta);
@@ -38,6 +40,7 @@ private:
   void add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatrix m);
   void factor();
   void addMultipliers(linalg::MultifrontalLu& matrix) const;
+  SphereRows rowsOfSpheres(double r) const;
   std::optional<Eigen::MatrixXd> relaxedByGradients() const;
   /// K⁻¹ b. @throws NumericalError if the network is singular
   Eigen::MatrixXd solved(Eigen::MatrixXd b);

@@ -8,8 +8,9 @@ namespace dovetail::rve {
 
 namespace {
 
-using Pairwise = Eigen::Matrix<double, 12, 12>;
 using Columns = Eigen::MatrixXd;
+constexpr double accuracy = 1e-5;  // of K X = B and Kᵀ Y = G, each column
+constexpr int rounds = 3;          // of iterations that drifted from what they believed was left
 
 /// Orthonormal strains, of 9 components by rows: stretches, and turns.
 Eigen::Matrix<double, 9, 6> stretches() {
@@ -31,67 +32,73 @@ Eigen::Matrix<double, 9, 3> turns() {
   return basis;
 }
 
-/// Stiffness of two grains, turns in lengths.
-struct Stiffness {
-  int a, b;
-  Pairwise matrix;
-};
-
-Columns product(const std::vector<Stiffness>& parts, double held, const Columns& x) {
-  Columns y = held * x;
-  Eigen::Matrix<double, 12, Eigen::Dynamic, 0, 12, 6> both(12, x.cols());
-  for (const Stiffness& part : parts) {
-    both << x.middleRows<6>(6 * part.a), x.middleRows<6>(6 * part.b);
-    both = (part.matrix * both).eval();
-    y.middleRows<6>(6 * part.a) += both.topRows<6>();
-    y.middleRows<6>(6 * part.b) += both.bottomRows<6>();
-  }
-  return y;
-}
-
-BlockGradients gradientsOf(const std::vector<Stiffness>& parts, int nodes, double held) {
-  std::vector<BlockGradients::Block> diagonal(static_cast<std::size_t>(nodes),
-                                              held * BlockGradients::Block::Identity());
-  std::vector<BlockGradients::Pair> pairs;
-  for (const Stiffness& part : parts) {
-    diagonal[static_cast<std::size_t>(part.a)] += part.matrix.topLeftCorner<6, 6>();
-    diagonal[static_cast<std::size_t>(part.b)] += part.matrix.bottomRightCorner<6, 6>();
-    const BlockGradients::Block ab = part.matrix.topRightCorner<6, 6>(), ba = part.matrix.bottomLeftCorner<6, 6>();
-    if (part.a > part.b)
-      pairs.push_back({part.a, part.b, ab, ba});
-    else
-      pairs.push_back({part.b, part.a, ba, ab});
-  }
-  return {diagonal, pairs};
-}
-
 void scaleTurns(Columns& rows, double factor) {
   for (Eigen::Index i = 0; i < rows.rows(); i += 6) rows.middleRows<3>(i + 3) *= factor;
 }
 
+struct Solved {
+  Columns X, Y;     ///< K X = B, Kᵀ Y = G
+  Columns restOfB;  ///< B − K X
+};
+
+/// Nothing where iterations do not get there.
+std::optional<Solved> solveBoth(const SphereRows& rows, const Columns& B, const Columns& G) {
+  const auto isThere = [](const Columns& rest, const Columns& of) {
+    return (rest.colwise().norm().array() <= accuracy * of.colwise().norm().array()).all();
+  };
+  const BlockGradients gradients(rows);
+  Columns X = Columns::Zero(B.rows(), B.cols()), Y = X, restOfB = B, restOfG = G;
+  for (int round = 0; !(isThere(restOfB, B) && isThere(restOfG, G)); ++round) {
+    if (round == rounds) return {};
+    Columns dX = restOfB, dY = restOfG;
+    if (!gradients.solve(dX, dY, 1e-6, 400)) return {};
+    X += dX, Y += dY;
+    restOfB = B - product(rows, X);
+    restOfG = G - transposedProduct(rows, Y);
+  }
+  return Solved{X, Y, restOfB};
+}
+
 }  // namespace
+
+/// Stiffness of all contacts, turns in lengths.
+SphereRows Network::rowsOfSpheres(double r) const {
+  SphereRows rows(static_cast<std::size_t>(nodes_));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    rows[i].emplace(static_cast<int>(i), slight * stiffest_ * SphereBlock::Identity());
+  SphereBlock scale = SphereBlock::Identity();
+  scale.diagonal().tail<3>().setConstant(1.0 / r);
+  for (const Part& part : parts_) {
+    const std::array<int, 2> node{part.a, part.b};
+    for (const std::size_t i : {0, 1})
+      for (const std::size_t j : {0, 1}) {
+        const auto row = static_cast<Eigen::Index>(perSphere * i), column = static_cast<Eigen::Index>(perSphere * j);
+        SphereBlock& block =
+            rows[static_cast<std::size_t>(node[i])].try_emplace(node[j], SphereBlock::Zero()).first->second;
+        block -= scale * part.forces.block<perSphere, perSphere>(row, column) * scale;
+      }
+  }
+  return rows;
+}
 
 /// Gᵀ X + Yᵀ (B − K X), where K X = B and Kᵀ Y = G to some digits, is Gᵀ K⁻¹ B to twice as many. Turns of all press
 /// nothing in a state of rest: they are left to that.
 std::optional<Eigen::MatrixXd> Network::relaxedByGradients() const {
-  const double r = 0.5 * meanDiameter(cell_), held = slight * stiffest_;
-  Eigen::Vector<double, 12> scale = Eigen::Vector<double, 12>::Ones();
-  scale.segment<3>(3).setConstant(1.0 / r);
-  scale.tail<3>().setConstant(1.0 / r);
-  std::vector<Stiffness> parts;
-  for (const Part& part : parts_)
-    parts.push_back({part.a, part.b, -(scale.asDiagonal() * part.forces * scale.asDiagonal())});
+  const double r = 0.5 * meanDiameter(cell_);
   Columns byForce = forceByStrain_, byStress = -stressByUnknown_.transpose();
   scaleTurns(byForce, 1.0 / r);
   scaleTurns(byStress, 1.0 / r);
+  const CondensedNetwork network = condensed(rowsOfSpheres(r), std::move(byForce), std::move(byStress), 3);
   const Eigen::Matrix<double, 9, 6> T = stretches();
   const Eigen::Matrix<double, 9, 3> W = turns();
-  const Columns B = byForce * T, G = byStress * T;
-  Columns X = B, Y = G;
-  if (!gradientsOf(parts, nodes_, held).solve(X, Y, 1e-6, 400)) return {};
-  const Eigen::MatrixXd among = G.transpose() * X + Y.transpose() * (B - product(parts, held, X));
-  return stressByStrain_ - T * among * T.transpose() - T * (Y.transpose() * byForce * W) * W.transpose() -
-         W * (W.transpose() * byStress.transpose() * X) * T.transpose();
+  const Columns B = network.b * T, G = network.g * T;
+  const std::optional<Solved> both = solveBoth(network.rows, B, G);
+  if (!both) return {};
+  const auto& [X, Y, restOfB] = *both;
+  const Eigen::MatrixXd among = G.transpose() * X + Y.transpose() * restOfB;
+  return stressByStrain_ - network.solved - T * among * T.transpose() -
+         T * (Y.transpose() * network.b * W) * W.transpose() -
+         W * (W.transpose() * network.g.transpose() * X) * T.transpose();
 }
 
 }  // namespace dovetail::rve
