@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "dovetail/dem/model/impact.hpp"
-#include "dovetail/fem/elements/solid.hpp"
 #include "run_impl.hpp"
 
 namespace dovetail::coupling {
@@ -45,8 +44,7 @@ double lightnessAlone(const SolidSide& side) {
 }
 
 bool hasElements(const fem::Model& model) {
-  return std::ranges::any_of(model.terms,
-                             [](const auto& term) { return dynamic_cast<const fem::Solid*>(term.get()) != nullptr; });
+  return std::ranges::any_of(model.terms, [](const auto& term) { return term->isBody(); });
 }
 
 }  // namespace

@@ -86,6 +86,20 @@ bool BookedMotion::halfKick(double h, double time, bool books) {
   return finite;
 }
 
+bool BookedMotion::renewNodes(double h) {
+  Model& model = motion.model();
+  bool any = false;
+  for (const auto& term : model.terms)
+    if (term->wantsOtherNodes(model.nodes)) {
+      any = true;
+      ledger.add("renewals of " + term->name(), term->renewNodes(model.nodes, model.t));
+    }
+  if (!any) return false;
+  motion.renew();
+  findForces(h, true, false);
+  return true;
+}
+
 void BookedMotion::giveImpulses(double h, bool changes) {
   const Model& model = motion.model();
   if (outside_.empty()) {
@@ -127,6 +141,7 @@ std::shared_ptr<BookedMotion::State> BookedMotion::read(ByteReader& archive, con
 
 void BookedMotion::adopt(State& state) {
   detail::adopt(std::move(state.model), motion.model());
+  if (detail::ownsNodes(motion.model())) motion.renew();
   ledger = std::move(state.ledger);
   impulses = std::move(state.impulses);
   outside_.clear();

@@ -51,6 +51,10 @@ struct ExplicitIntegrator::Impl {
       const Profile::Stage stage(profile, "materials accept");
       solid.accept(dt, books());
     }
+    {
+      const Profile::Stage stage(profile, "renewals");
+      solid.renewNodes(dt);
+    }
     if (samples()) {
       const Profile::Stage stage(profile, "energies");
       solid.sample();

@@ -42,6 +42,9 @@ struct ImplicitIntegrator::Impl : ImplicitMotion::Impl {
 
   Impl(Model& m, double step, const ImplicitOptions& o)
       : ImplicitMotion::Impl(m, o), dt(requirePositive(step, "dt")), ledger(m) {
+    if (detail::ownsNodes(m))
+      throw InputError("implicit steps do not renew the grid of material points", "ImplicitIntegrator",
+                       "take ExplicitIntegrator");
     begin(dt);
     sample();
     ledger.open();

@@ -102,6 +102,12 @@ double Motion::commit(double dt) {
   return dissipated;
 }
 
+void Motion::renew() {
+  Model& model = *impl_->model;
+  addMass(model);
+  impl_ = std::make_unique<Impl>(model, impl_->mass.fraction());
+}
+
 double Motion::kineticEnergy() const { return impl_->mass.kineticEnergy(impl_->model->nodes.v); }
 
 }  // namespace dovetail::fem

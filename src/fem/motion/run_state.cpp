@@ -12,10 +12,11 @@ namespace {
 
 constexpr const char* remedy = "load it into the run that saved it";
 
-std::vector<Vec3> readField(ByteReader& archive, std::size_t nodes, const std::string& what) {
+/// Of as many nodes as the model has, unless these come with the state.
+std::vector<Vec3> readField(ByteReader& archive, const Model& model, const std::string& what) {
   std::vector<Vec3> field;
   archive(field);
-  if (field.size() != nodes)
+  if (const std::size_t nodes = model.nodes.u.size(); field.size() != nodes && !ownsNodes(model))
     throw InputError("the state has " + std::to_string(field.size()) + " nodes, the model " + std::to_string(nodes),
                      what, remedy);
   const auto bad = std::ranges::find_if_not(field, [](const Vec3& value) { return isFinite(value); });
@@ -80,14 +81,18 @@ ModelState readModel(ByteReader& archive, const std::string& run, const Model& m
   if (const std::string kind = readText(archive); kind != run)
     throw InputError("the state is not that of an " + run + " run", "load", remedy);
   requireSameTerms(archive, model);
-  const std::size_t nodes = model.nodes.u.size();
-  ModelState state{readNumber(archive, "time"), readField(archive, nodes, "displacement"),
-                   readField(archive, nodes, "velocity"), std::vector<std::vector<char>>(model.terms.size())};
+  ModelState state{readNumber(archive, "time"), readField(archive, model, "displacement"),
+                   readField(archive, model, "velocity"), std::vector<std::vector<char>>(model.terms.size())};
   for (std::vector<char>& bytes : state.terms) archive(bytes);
   return state;
 }
 
+bool ownsNodes(const Model& model) {
+  return std::ranges::any_of(model.terms, [](const auto& term) { return term->ownsNodes(); });
+}
+
 void adopt(ModelState state, Model& model) {
+  const Nodes nodesBefore = model.nodes;
   std::vector<std::vector<char>> before;
   for (const auto& term : model.terms) before.push_back(stateOf(*term));
   const auto loadTerms = [&](const std::vector<std::vector<char>>& bytes) {
@@ -95,12 +100,18 @@ void adopt(ModelState state, Model& model) {
       ByteReader archive(bytes[k]);
       model.terms[k]->load(archive);
       requireEnd(archive, model.terms[k]->name());
+      model.terms[k]->layNodes(model.nodes);
     }
   };
   try {
     loadTerms(state.terms);
+    if (state.u.size() != model.nodes.X.size() || state.v.size() != model.nodes.X.size())
+      throw InputError("the state has displacements of " + std::to_string(state.u.size()) + " nodes and lays out " +
+                           std::to_string(model.nodes.X.size()),
+                       "state", remedy);
   } catch (...) {
     loadTerms(before);
+    model.nodes = nodesBefore;
     throw;
   }
   model.t = state.t;
@@ -115,10 +126,9 @@ void writeStart(ByteWriter& archive, const StepStart& start) {
 }
 
 StepStart readStart(ByteReader& archive, const Model& model) {
-  const std::size_t nodes = model.nodes.u.size();
-  StepStart start{readField(archive, nodes, "acceleration"), readField(archive, nodes, "force"), {}};
+  StepStart start{readField(archive, model, "acceleration"), readField(archive, model, "force"), {}};
   for (const auto& term : model.terms)
-    start.loads.push_back(isKeptApart(*term) ? readField(archive, nodes, "load") : std::vector<Vec3>());
+    start.loads.push_back(isKeptApart(*term) ? readField(archive, model, "load") : std::vector<Vec3>());
   return start;
 }
 

@@ -5,7 +5,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/model/model_mass.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
 #include "dovetail/linalg/largest_eigenvalue.hpp"
@@ -70,14 +69,12 @@ Pull strongestPull(const Model& model) {
 StableStep stableStep(Model& model, const std::string& of) {
   StableStep limit;
   for (const auto& term : model.terms)
-    if (auto* const solid = dynamic_cast<Solid*>(term.get())) {
-      StableStep own = solid->stableStep(model.nodes);
-      if (limit.element < 0 || own.dt < limit.dt) limit = std::move(own);
-    }
+    if (std::optional<StableStep> own = term->stableStep(model.nodes))
+      if (limit.element < 0 || own->dt < limit.dt) limit = *std::move(own);
   if (limit.element < 0)
     throw InputError("the model has no solid", "stableStep", "add one with makeSolid, or ask assembledStableStep");
   const std::string name = "\"" + (of.empty() ? limit.solid : of) + "\"";
-  limit.owner = "element " + std::to_string(limit.element) + " of " + name;
+  limit.owner = limit.part + (" " + std::to_string(limit.element)) + " of " + name;
   const Pull pull = strongestPull(model);
   if (pull.node < 0) return limit;
   const double elements = 4.0 / (limit.dt * limit.dt);

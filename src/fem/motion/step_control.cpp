@@ -5,7 +5,6 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
-#include "dovetail/fem/elements/solid.hpp"
 #include "run_state.hpp"
 
 namespace dovetail::fem::detail {
@@ -17,9 +16,8 @@ constexpr double wantedChange = 0.02;  // of the bound from look to look
 /// Lumped mass over the least that the blended one can be.
 double leastMass(double fraction) { return 1.0 - 26.0 / 27.0 * fraction; }
 
-bool hasSolid(const Model& model) {
-  return std::ranges::any_of(model.terms,
-                             [](const auto& term) { return dynamic_cast<const Solid*>(term.get()) != nullptr; });
+bool hasBody(const Model& model) {
+  return std::ranges::any_of(model.terms, [](const auto& term) { return term->isBody(); });
 }
 
 void requireOptions(const ExplicitOptions& options) {
@@ -38,7 +36,7 @@ StepControl::StepControl(Model& model, double dt, const ExplicitOptions& options
   requireOptions(options);
   if (follows()) {
     follow(model);
-  } else if (options.checkStep && hasSolid(model)) {
+  } else if (options.checkStep && hasBody(model)) {
     const StableStep stable = look(model);
     if (dt > critical_)
       throw InputError("dt is " + formatNumber(dt) + " s, the largest stable step is " + formatNumber(critical_) + " s",

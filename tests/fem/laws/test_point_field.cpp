@@ -62,8 +62,8 @@ TEST(PointField, AnswersAsTheLawItself) {
         const double dissipated = law.solid->commit(own, now);
         EXPECT_NEAR(dissipated, field.solid->commit(other, now), 1e-13 * energy);
         EXPECT_EQ(dissipated > 0.0, material->historySize() > 0);
-        const double dt = law.solid->stableStep(own).dt;
-        EXPECT_NEAR(dt, field.solid->stableStep(other).dt, 1e-12 * dt);
+        const double dt = law.solid->stableStep(own)->dt;
+        EXPECT_NEAR(dt, field.solid->stableStep(other)->dt, 1e-12 * dt);
       }
     }
 }

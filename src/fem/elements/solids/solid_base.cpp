@@ -76,7 +76,7 @@ void SolidBase::openPoints() {
 void SolidBase::ask(const Nodes& nodes, const Instant& now, const Wanted& wanted) {
   openPoints();
   FieldPoints* const field = points_->field();
-  if (field == nullptr || field->knows(nodes.u, now, wanted)) return;
+  if (field == nullptr || field->answers.knows(nodes.u, now, wanted)) return;
   needGeometry();
   parallelFor(cells_.batches(), batchChunk, [&](std::size_t begin, std::size_t end) {
     LaneVector F(9 * pointCount());
@@ -85,7 +85,7 @@ void SolidBase::ask(const Nodes& nodes, const Instant& now, const Wanted& wanted
       field->gather(b, F.data());
     }
   });
-  field->ask(nodes.u, now, wanted, options_.name);
+  field->answers.ask(nodes.u, now, wanted, options_.name);
 }
 
 void SolidBase::load(ByteReader& archive) {

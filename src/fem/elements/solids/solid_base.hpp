@@ -73,9 +73,9 @@ public:
   std::size_t size() const override { return cells_.size(); }
   std::size_t memory() const override;
   const PointMaterial* material() const override { return points_->law(); }
-  const PointField* field() const override { return points_->field() ? &points_->field()->asked() : nullptr; }
+  const PointField* field() const override { return points_->field() ? &points_->field()->answers.field() : nullptr; }
   double density() const override { return points_->density(); }
-  StableStep stableStep(const Nodes& nodes) override;
+  std::optional<StableStep> stableStep(const Nodes& nodes) override;
   ElementShape shape() const override { return cells_.shape; }
   Formulation formulation() const override { return options_.formulation; }
   int number(std::size_t e) const override { return cells_.number[e]; }

@@ -100,32 +100,27 @@ std::unique_ptr<SolidPoints> pointsOf(std::shared_ptr<PointField> field) {
 }
 
 double FieldPoints::dampingTime() const {
-  const PointMaterial* const law = lawOf(*field_);
+  const PointMaterial* const law = lawOf(answers.field());
   return law ? law->dampingTime() : 0.0;
 }
 
 void FieldPoints::open(std::size_t pointsPerElement, std::span<const PointPlace> places) {
   perElement_ = pointsPerElement;
-  places_.assign(places.begin(), places.end());
-  F_.resize(9 * places_.size());
-  P_.resize(9 * places_.size());
-  energy_.resize(places_.size());
-  dissipated_.resize(places_.size());
-  reason_.resize(places_.size());
-  field_->open(places_);
+  answers.open(places);
 }
 
 /// Lanes that repeat an element are answered for by the last one.
 std::size_t FieldPoints::place(std::size_t batch, std::size_t point, std::size_t lane) const {
-  const std::size_t element = std::min(laneCount * batch + lane, places_.size() / perElement_ - 1);
+  const std::size_t element = std::min(laneCount * batch + lane, answers.places().size() / perElement_ - 1);
   return element * perElement_ + point;
 }
 
 void FieldPoints::gather(std::size_t batch, const Lane* F) {
-  const std::size_t inUse = std::min<std::size_t>(laneCount, places_.size() / perElement_ - laneCount * batch);
+  const std::span<double> to = answers.F();
+  const std::size_t inUse = std::min<std::size_t>(laneCount, answers.places().size() / perElement_ - laneCount * batch);
   for (std::size_t lane = 0; lane < inUse; ++lane)
     for (std::size_t q = 0; q < perElement_; ++q)
-      for (std::size_t k = 0; k < 9; ++k) F_[9 * place(batch, q, lane) + k] = F[9 * q + k][static_cast<int>(lane)];
+      for (std::size_t k = 0; k < 9; ++k) to[9 * place(batch, q, lane) + k] = F[9 * q + k][static_cast<int>(lane)];
 }
 
 void FieldPoints::evaluate(const PointCall& call) {
@@ -133,119 +128,29 @@ void FieldPoints::evaluate(const PointCall& call) {
     for (std::size_t lane = 0; lane < laneCount; ++lane) {
       const std::size_t p = place(call.batch, q, lane);
       const int l = static_cast<int>(lane);
-      for (std::size_t k = 0; k < 9; ++k) call.P[9 * q + k][l] = P_[9 * p + k];
+      for (std::size_t k = 0; k < 9; ++k) call.P[9 * q + k][l] = answers.P()[9 * p + k];
       if (call.tangent != nullptr)
-        for (std::size_t k = 0; k < 81; ++k) call.tangent[81 * q + k][l] = tangent_[81 * p + k];
-      if (call.energy != nullptr) call.energy[q][l] = energy_[p];
-      if (call.dissipated != nullptr) call.dissipated[q][l] = dissipated_[p];
+        for (std::size_t k = 0; k < 81; ++k) call.tangent[81 * q + k][l] = answers.tangent()[81 * p + k];
+      if (call.energy != nullptr) call.energy[q][l] = answers.energy()[p];
+      if (call.dissipated != nullptr) call.dissipated[q][l] = answers.dissipated()[p];
     }
 }
 
-bool FieldPoints::knows(std::span<const Vec3> u, const Instant& now, const Wanted& wanted) const {
-  return asked_ && dt_ == now.dt && rateAtEnd_ == now.rateAtEnd && (wanted.toRead || !committed_) &&
-         (hasTangent_ || !wanted.tangent) && (hasEnergy_ || !wanted.energy) && std::ranges::equal(u_, u);
-}
-
-FieldRequest FieldPoints::request(const Instant& now, bool moved, const Wanted& wanted) {
-  if (wanted.tangent) tangent_.resize(81 * places_.size());
-  return {.F = F_,
-          .dt = now.dt,
-          .moved = moved,
-          .P = P_,
-          .tangent = wanted.tangent ? std::span<double>(tangent_) : std::span<double>{},
-          .energy = energy_,
-          .dissipated = dissipated_,
-          .reason = reason_,
-          .rateAtEnd = now.rateAtEnd,
-          .willCommit = now.willCommit,
-          .withEnergy = wanted.energy};
-}
-
-/// Of the committed state, whose answer was taken without: no time passes from there to the same F.
-void FieldPoints::findEnergies() {
-  std::vector<double> P(P_.size()), dissipated(dissipated_.size());
-  field_->evaluate({.F = F_,
-                    .dt = 0.0,
-                    .moved = true,
-                    .P = P,
-                    .tangent = {},
-                    .energy = energy_,
-                    .dissipated = dissipated,
-                    .reason = reason_});
-  hasEnergy_ = true;
-}
-
-void FieldPoints::ask(std::span<const Vec3> u, const Instant& now, const Wanted& wanted, const std::string& name) {
-  std::ranges::fill(reason_, std::string{});
-  if (committed_ && knows(u, now, {.tangent = wanted.tangent, .energy = false, .toRead = wanted.toRead})) {
-    findEnergies();
-    return requireAnswers(name);
-  }
-  const bool moved = !knows(u, now, {.energy = false});
-  asked_ = false;
-  field_->evaluate(request(now, moved, wanted));
-  requireAnswers(name);
-  u_.assign(u.begin(), u.end());
-  dt_ = now.dt;
-  rateAtEnd_ = now.rateAtEnd;
-  asked_ = true;
-  hasTangent_ = wanted.tangent;
-  hasEnergy_ = wanted.energy || (!moved && hasEnergy_);
-  committed_ = false;
-}
-
-void FieldPoints::requireAnswers(const std::string& name) const {
-  const auto finite = [](std::span<const double> values) {
-    return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
-  };
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    std::string reason = reason_[p];
-    if (reason.empty() && !(finite(std::span(P_).subspan(9 * p, 9)) && std::isfinite(energy_[p])))
-      reason = "the answer is not finite";
-    if (!reason.empty())
-      throw NumericalError(reason,
-                           "element " + std::to_string(places_[p].element) + " of \"" + name + "\", point " +
-                               std::to_string(places_[p].point),
-                           "take a smaller step, a finer mesh or a smaller load");
-  }
-}
-
 ModuliAtRest FieldPoints::moduliAtRest() {
-  for (std::size_t p = 0; p < places_.size(); ++p)
-    for (std::size_t k = 0; k < 9; ++k) F_[9 * p + k] = k % 4 == 0 ? 1.0 : 0.0;
-  field_->evaluate(request(Instant{}, true, {.tangent = true}));
-  requireAnswers(field_->name());
+  const std::span<double> F = answers.F();
+  for (std::size_t k = 0; k < F.size(); ++k) F[k] = k % 9 % 4 == 0 ? 1.0 : 0.0;
+  answers.revert();
+  answers.ask({}, {}, {.tangent = true}, answers.field().name());
   ModuliAtRest mean{0.0, 0.0};
-  for (std::size_t p = 0; p < places_.size(); ++p) {
-    mean.confined += tangent_[81 * p] / static_cast<double>(places_.size());
-    mean.shear += tangent_[81 * p + 10] / static_cast<double>(places_.size());
+  const std::size_t count = answers.places().size();
+  for (std::size_t p = 0; p < count; ++p) {
+    mean.confined += answers.tangent()[81 * p] / static_cast<double>(count);
+    mean.shear += answers.tangent()[81 * p + 10] / static_cast<double>(count);
   }
-  revert();
+  answers.revert();
   return mean;
 }
 
-void FieldPoints::commit() {
-  field_->commit();
-  committed_ = true;
-}
-
-void FieldPoints::revert() {
-  field_->revert();
-  asked_ = false;
-}
-
-void FieldPoints::load(ByteReader& archive, const std::string&) {
-  field_->load(archive);
-  asked_ = false;
-}
-
 std::string FieldPoints::whyInvalid(const double* F, Scrutiny) const { return whyInverted(F); }
-
-std::size_t FieldPoints::memory() const {
-  return sizeof(double) *
-             (F_.capacity() + P_.capacity() + tangent_.capacity() + energy_.capacity() + dissipated_.capacity()) +
-         sizeof(std::string) * reason_.capacity() + sizeof(Vec3) * u_.capacity() +
-         sizeof(PointPlace) * places_.capacity() + field_->memory();
-}
 
 }  // namespace dovetail::fem::detail

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/fem/laws/field_answers.hpp"
 #include "dovetail/fem/laws/material_probe.hpp"
-#include "dovetail/fem/laws/point_field.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
 #include "dovetail/fem/model/term.hpp"
 #include "elements/lanes/lane.hpp"
@@ -21,13 +21,6 @@ struct PointCall {
   bool rateAtEnd;
   const Lane* F;
   Lane *P, *tangent, *energy, *dissipated;
-};
-
-/// What is wanted of an answer beside the stress.
-struct Wanted {
-  bool tangent = false;
-  bool energy = true;
-  bool toRead = false;  ///< not to go on from: answers of a state that was committed since will do
 };
 
 class SolidPoints {
@@ -74,54 +67,39 @@ std::unique_ptr<SolidPoints> pointsOf(std::shared_ptr<PointField> field);
 /// @throws InputError unless there are so many, all finite
 std::vector<double> readNumbers(ByteReader& archive, std::size_t count, const std::string& where);
 
-/// Answers of a field, kept for the batches that ask for them one after another.
+/// Answers of a field, handed out to batches.
 class FieldPoints final : public SolidPoints {
 public:
-  explicit FieldPoints(std::shared_ptr<PointField> field) : field_(std::move(field)) {}
+  explicit FieldPoints(std::shared_ptr<PointField> field) : answers(std::move(field)) {}
 
-  double density() const override { return field_->density(); }
-  bool isSymmetric() const override { return field_->isSymmetric(); }
+  double density() const override { return answers.field().density(); }
+  bool isSymmetric() const override { return answers.field().isSymmetric(); }
   bool isElastic() const override { return false; }
-  bool feelsRates() const override { return field_->feelsRates(); }
-  bool hasEnergy() const override { return field_->hasEnergy(); }
+  bool feelsRates() const override { return answers.field().feelsRates(); }
+  bool hasEnergy() const override { return answers.field().hasEnergy(); }
   double dampingTime() const override;
   bool remembers() const override { return true; }
   FieldPoints* field() override { return this; }
-  const PointField& asked() const { return *field_; }
 
-  bool isOpen() const override { return !places_.empty(); }
+  bool isOpen() const override { return answers.isOpen(); }
   void open(std::size_t pointsPerElement, std::span<const PointPlace> places) override;
   ModuliAtRest moduliAtRest() override;
   void evaluate(const PointCall& call) override;
-  void commit() override;
-  void revert() override;
-  void save(ByteWriter& archive) const override { field_->save(archive); }
-  void load(ByteReader& archive, const std::string& where) override;
+  void commit() override { answers.commit(); }
+  void revert() override { answers.revert(); }
+  void save(ByteWriter& archive) const override { answers.save(archive); }
+  void load(ByteReader& archive, const std::string&) override { answers.load(archive); }
   std::string whyInvalid(const double* F, Scrutiny scrutiny) const override;
-  std::size_t memory() const override;
+  std::size_t memory() const override { return answers.memory(); }
 
-  /// Whether the answers are those of these displacements and this length of the step, and whether nothing was
-  /// committed since (where `toRead` that does not matter).
-  bool knows(std::span<const Vec3> u, const Instant& now, const Wanted& wanted) const;
-  /// Where F of all points belongs before ask(): lanes of a batch, [9 q + 3 i + J].
+  /// Where F of all points belongs before answers.ask(): lanes of a batch, [9 q + 3 i + J].
   void gather(std::size_t batch, const Lane* F);
-  /// @throws NumericalError naming the first element and point without an answer, or with one that is not finite
-  void ask(std::span<const Vec3> u, const Instant& now, const Wanted& wanted, const std::string& name);
+
+  FieldAnswers answers;
 
 private:
-  void requireAnswers(const std::string& name) const;
-  FieldRequest request(const Instant& now, bool moved, const Wanted& wanted);
-  void findEnergies();
   std::size_t place(std::size_t batch, std::size_t point, std::size_t lane) const;
-
-  std::shared_ptr<PointField> field_;
-  std::vector<PointPlace> places_;
   std::size_t perElement_ = 0;
-  std::vector<double> F_, P_, tangent_, energy_, dissipated_;
-  std::vector<std::string> reason_;
-  std::vector<Vec3> u_;
-  double dt_ = 0.0;
-  bool rateAtEnd_ = false, asked_ = false, hasTangent_ = false, hasEnergy_ = false, committed_ = false;
 };
 
 }  // namespace dovetail::fem::detail

@@ -38,7 +38,7 @@ struct Invariants {
 
 /// Bounds (row sums) of all elements are cheap; eigenvalues are computed from the largest bound down, once per kind of
 /// element, until no bound that is left reaches the largest eigenvalue found.
-StableStep SolidBase::stableStep(const Nodes& nodes) {
+std::optional<StableStep> SolidBase::stableStep(const Nodes& nodes) {
   requireSameNodes(nodes);
   needGeometry();
   ask(nodes, {}, {.tangent = true});
@@ -81,7 +81,7 @@ StableStep SolidBase::stableStep(const Nodes& nodes) {
     if (std::isnan(own)) break;
   }
   const double h = 2.0 / std::sqrt(largest), tau = points_->dampingTime();
-  return {{tau > 0.0 ? h * h / (std::hypot(tau, h) + tau) : h, {}}, cells_.number[worst], name()};
+  return StableStep{{tau > 0.0 ? h * h / (std::hypot(tau, h) + tau) : h, {}}, cells_.number[worst], name()};
 }
 
 }  // namespace dovetail::fem::detail

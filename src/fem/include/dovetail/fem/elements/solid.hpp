@@ -54,6 +54,7 @@ struct SolidOptions {
 class Solid : public Term {
 public:
   bool actsWithin() const final { return true; }
+  bool isBody() const final { return true; }
   /// Nothing: stableStep() says what an explicit step can be.
   void addStiffness(const Nodes&, const Instant&, std::span<double>) final {}
   virtual std::size_t size() const = 0;
@@ -69,7 +70,7 @@ public:
   virtual double hourglassEnergy(const Nodes&) { return 0.0; }
   /// 2/ω of the stiffest single element at the present displacement, with its lumped mass: never above the limit of the
   /// assembled solid. Names the element by its number in the mesh.
-  virtual StableStep stableStep(const Nodes& nodes) = 0;
+  std::optional<StableStep> stableStep(const Nodes& nodes) override = 0;
   /// Stored energy of each element, J.
   virtual std::vector<double> elementEnergies(const Nodes& nodes, const Instant& now) = 0;
   /// Weight of the integrals per node of the mesh; empty = 1.

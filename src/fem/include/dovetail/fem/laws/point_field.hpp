@@ -18,7 +18,7 @@ class PointMaterial;
 
 /// A quadrature point of a solid, before any motion.
 struct PointPlace {
-  int element;    ///< number in the mesh
+  int element;    ///< number in the mesh; −1 of points without elements
   int point;      ///< within the element, in the order of its quadrature
   Vec3 X;         ///< m
   double volume;  ///< that it stands for, the fraction of the solid included, m³

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/vec3.hpp"
+#include "dovetail/fem/elements/critical_element.hpp"
 #include "dovetail/fem/model/nodes.hpp"
 
 namespace dovetail::linalg {
@@ -67,6 +69,11 @@ public:
   /// of it. Explicit steps ask all but elements, which have a bound of their own. Here: of addTangent(), 0 without
   /// energy.
   virtual void addStiffness(const Nodes& nodes, const Instant& now, std::span<double> k);
+  /// 2/ω of the stiffest part of it with its lumped mass at the present displacement, never above the limit of the
+  /// whole, where it is a body of its own (elements, material points) and not something that acts on one.
+  virtual std::optional<StableStep> stableStep(const Nodes&) { return std::nullopt; }
+  /// Whether it is: has mass and a stable step of its own.
+  virtual bool isBody() const { return false; }
   /// Whether it acts among the nodes alone, as elements do: its forces have no sum and no moment.
   virtual bool actsWithin() const { return false; }
 
@@ -93,6 +100,17 @@ public:
   virtual bool augment(const Nodes&, const Instant&) { return false; }
   /// The step is given up: multipliers are again those of the last commit.
   virtual void revert() {}
+
+  /// Whether the nodes of the model are those of this term, which lays them out and renews them (a grid under material
+  /// points); at most one of a model.
+  virtual bool ownsNodes() const { return false; }
+  /// Puts the nodes of its state in the place of all there are: at u = 0, with the velocities that the term gives them.
+  virtual void layNodes(Nodes&) {}
+  /// Whether they have travelled so far that it wants others in their place.
+  virtual bool wantsOtherNodes(const Nodes&) const { return false; }
+  /// Puts them there, between steps: its state and its momentum stay, the force at them needs no new answer of a
+  /// material. @return kinetic energy that this takes, J, of nodes and of what energy() has of it
+  virtual double renewNodes(Nodes&, double /*t*/) { return 0.0; }
 
   /// mass += its lumped masses, kg.
   virtual void addMass(std::span<double>) const {}

@@ -32,6 +32,9 @@ public:
   bool halfKick(double h, double time, bool books);
   /// The materials accept the step of length h that ends here.
   void accept(double h, bool books) { ledger.accept(motion.model(), {motion.model().t, h, &motion.mass()}, books); }
+  /// Between steps, the last of which had the length h: terms that want other nodes get them, and the kinetic energy
+  /// that this takes is booked. @return whether any did: nodes are then others, with their forces
+  bool renewNodes(double h);
   /// Sets the stored channels: energies of the last evaluate with them, and kinetic energy.
   void sample() { ledger.sample(motion.model(), motion.energies(), motion.kineticEnergy()); }
   /// Work of a force on the nodes in a kick that has changed their velocities from `before`, of half the length h, J.

@@ -53,6 +53,9 @@ public:
   /// The materials accept the step of length dt that ends here. @return energy dissipated in it, J
   double commit(double dt);
 
+  /// Nodes have become others (Term::renewNodes): masses and constraints are read again.
+  void renew();
+
   /// ½ vᵀMv, J.
   double kineticEnergy() const;
 

@@ -1,0 +1,118 @@
+#include "dovetail/fem/laws/field_answers.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
+
+namespace dovetail::fem {
+
+namespace {
+
+std::string whereIs(const PointPlace& place, const std::string& name) {
+  const std::string point = "point " + std::to_string(place.point);
+  return place.element < 0 ? point + " of \"" + name + "\""
+                           : "element " + std::to_string(place.element) + " of \"" + name + "\", " + point;
+}
+
+}  // namespace
+
+void FieldAnswers::open(std::span<const PointPlace> places) {
+  places_.assign(places.begin(), places.end());
+  F_.resize(9 * places_.size());
+  P_.resize(9 * places_.size());
+  energy_.resize(places_.size());
+  dissipated_.resize(places_.size());
+  reason_.resize(places_.size());
+  field_->open(places_);
+}
+
+bool FieldAnswers::knows(std::span<const Vec3> u, const Instant& now, const Wanted& wanted) const {
+  return asked_ && dt_ == now.dt && rateAtEnd_ == now.rateAtEnd && (wanted.toRead || !committed_) &&
+         (hasTangent_ || !wanted.tangent) && (hasEnergy_ || !wanted.energy) && std::ranges::equal(u_, u);
+}
+
+FieldRequest FieldAnswers::request(const Instant& now, bool moved, const Wanted& wanted) {
+  if (wanted.tangent) tangent_.resize(81 * places_.size());
+  return {.F = F_,
+          .dt = now.dt,
+          .moved = moved,
+          .P = P_,
+          .tangent = wanted.tangent ? std::span<double>(tangent_) : std::span<double>{},
+          .energy = energy_,
+          .dissipated = dissipated_,
+          .reason = reason_,
+          .rateAtEnd = now.rateAtEnd,
+          .willCommit = now.willCommit,
+          .withEnergy = wanted.energy};
+}
+
+/// Of the committed state, whose answer was taken without: no time passes from there to the same F.
+void FieldAnswers::findEnergies() {
+  std::vector<double> P(P_.size()), dissipated(dissipated_.size());
+  field_->evaluate({.F = F_,
+                    .dt = 0.0,
+                    .moved = true,
+                    .P = P,
+                    .tangent = {},
+                    .energy = energy_,
+                    .dissipated = dissipated,
+                    .reason = reason_});
+  hasEnergy_ = true;
+}
+
+void FieldAnswers::ask(std::span<const Vec3> u, const Instant& now, const Wanted& wanted, const std::string& name) {
+  std::ranges::fill(reason_, std::string{});
+  if (committed_ && knows(u, now, {.tangent = wanted.tangent, .energy = false, .toRead = wanted.toRead})) {
+    findEnergies();
+    return requireAnswers(name);
+  }
+  const bool moved = !knows(u, now, {.energy = false});
+  asked_ = false;
+  field_->evaluate(request(now, moved, wanted));
+  requireAnswers(name);
+  u_.assign(u.begin(), u.end());
+  dt_ = now.dt;
+  rateAtEnd_ = now.rateAtEnd;
+  asked_ = true;
+  hasTangent_ = wanted.tangent;
+  hasEnergy_ = wanted.energy || (!moved && hasEnergy_);
+  committed_ = false;
+}
+
+void FieldAnswers::requireAnswers(const std::string& name) const {
+  const auto finite = [](std::span<const double> values) {
+    return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+  };
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    std::string reason = reason_[p];
+    if (reason.empty() && !(finite(std::span(P_).subspan(9 * p, 9)) && std::isfinite(energy_[p])))
+      reason = "the answer is not finite";
+    if (!reason.empty())
+      throw NumericalError(reason, whereIs(places_[p], name), "take a smaller step, a finer mesh or a smaller load");
+  }
+}
+
+void FieldAnswers::commit() {
+  field_->commit();
+  committed_ = true;
+}
+
+void FieldAnswers::revert() {
+  field_->revert();
+  asked_ = false;
+}
+
+void FieldAnswers::load(ByteReader& archive) {
+  field_->load(archive);
+  asked_ = false;
+}
+
+std::size_t FieldAnswers::memory() const {
+  return sizeof(double) *
+             (F_.capacity() + P_.capacity() + tangent_.capacity() + energy_.capacity() + dissipated_.capacity()) +
+         sizeof(std::string) * reason_.capacity() + sizeof(Vec3) * u_.capacity() +
+         sizeof(PointPlace) * places_.capacity() + field_->memory();
+}
+
+}  // namespace dovetail::fem
