@@ -9,12 +9,6 @@ namespace {
 
 constexpr std::size_t pointChunk = 512;
 
-/// B x with nine numbers in rows.
-Vec3 times(const double* B, const Vec3& x) {
-  return {B[0] * x.x + B[1] * x.y + B[2] * x.z, B[3] * x.x + B[4] * x.y + B[5] * x.z,
-          B[6] * x.x + B[7] * x.y + B[8] * x.z};
-}
-
 /// The part that turns by the arms of nodes as they are now, which keeps the angular momentum; the part that stretches
 /// by the arms that they had when the grid was laid out, with which lone points stay in bounds.
 void findMoment(const GridRows& rows, std::size_t p, std::span<const Vec3> u, std::span<const Vec3> v, const Vec3& x0,

@@ -1,0 +1,137 @@
+#include <algorithm>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/laws/point_material.hpp"
+#include "points.hpp"
+#include "scatter.hpp"
+
+namespace dovetail::mpm::detail {
+
+namespace {
+constexpr std::size_t pointChunk = 512;
+}
+
+using fem::Instant;
+using fem::Nodes;
+using fem::Wanted;
+
+Points::Points(const MaterialPoints& points, std::shared_ptr<fem::PointField> field, const PointOptions& options)
+    : options_(options),
+      answers_(std::move(field)),
+      carried_{{}, points.x, points.v, {}},
+      volume_(points.volume),
+      F0_(9 * points.x.size(), 0.0) {
+  carried_.v.resize(points.x.size());
+  if (options.transfer == Transfer::apic) carried_.moment.assign(F0_.size(), 0.0);
+  for (std::size_t k = 0; k < F0_.size(); ++k) F0_[k] = k % 9 % 4 == 0 ? 1.0 : 0.0;
+  std::vector<fem::PointPlace> places;
+  for (std::size_t p = 0; p < points.x.size(); ++p) {
+    carried_.mass.push_back(answers_.field().density() * volume_[p]);
+    places.push_back({-1, static_cast<int>(p), points.x[p], volume_[p]});
+  }
+  answers_.open(places);
+}
+
+void Points::requireSameNodes(const Nodes& nodes) const {
+  if (nodes.u.size() != rows_.nodes())
+    throw InputError(
+        "there are " + std::to_string(nodes.u.size()) + " nodes for a grid of " + std::to_string(rows_.nodes()),
+        options_.name, "use mpm::makeModel");
+}
+
+std::vector<Vec3> Points::places(const Nodes& nodes) const {
+  requireSameNodes(nodes);
+  std::vector<Vec3> x = carried_.x;
+  for (std::size_t p = 0; p < x.size(); ++p) x[p] += valueAt(rows_, p, nodes.u);
+  return x;
+}
+
+/// F = (1 + Σ u ⊗ ∂w/∂x) F₀.
+void Points::findDeformation(std::span<const Vec3> u) {
+  const std::span<double> F = answers_.F();
+  parallelFor(rows_.points(), pointChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p) {
+      double G[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+      const Vec3* const slope = &rows_.slope[rows_.perPoint * p];
+      eachReached(rows_, p, u, [&](std::size_t a, const Vec3& own) {
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j) G[3 * i + j] += own[i] * slope[a][j];
+      });
+      const double* const F0 = &F0_[9 * p];
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t J = 0; J < 3; ++J)
+          F[9 * p + 3 * i + J] = G[3 * i] * F0[J] + G[3 * i + 1] * F0[3 + J] + G[3 * i + 2] * F0[6 + J];
+    }
+  });
+}
+
+/// Unless the points have answered for this state. Those of a new grid have: their state is the one that was accepted.
+void Points::ask(const Nodes& nodes, const Instant& now, Wanted wanted) {
+  requireSameNodes(nodes);
+  wanted.toRead |= isNew_;
+  if (answers_.knows(nodes.u, now, wanted)) return;
+  findDeformation(nodes.u);
+  answers_.ask(nodes.u, now, wanted, options_.name);
+}
+
+/// f −= ∂U/∂u, Σ V₀ P F₀ᵀ ∂w/∂x.
+void Points::addAnswers(std::span<Vec3> f) const {
+  const std::span<const double> P = answers_.P();
+  std::vector<double> stress(P.size());
+  parallelFor(rows_.points(), pointChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+          double sum = 0.0;
+          for (std::size_t J = 0; J < 3; ++J) sum += P[9 * p + 3 * i + J] * F0_[9 * p + 3 * j + J];
+          stress[9 * p + 3 * i + j] = -volume_[p] * sum;
+        }
+  });
+  addToNodes<Vec3>(
+      rows_, f,
+      [&](std::size_t p, std::size_t a) { return times(&stress[9 * p], rows_.slope[rows_.perPoint * p + a]); },
+      flipped);
+}
+
+double Points::stored() const {
+  double sum = beyond_;
+  for (std::size_t p = 0; p < volume_.size(); ++p) sum += volume_[p] * answers_.energy()[p];
+  return sum;
+}
+
+void Points::addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) {
+  ask(nodes, now, {.energy = !now.willCommit});
+  isNew_ = false;
+  addAnswers(f);
+}
+
+double Points::addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) {
+  ask(nodes, now, {});
+  isNew_ = false;
+  addAnswers(f);
+  return stored();
+}
+
+double Points::energy(const Nodes& nodes, const Instant& now) {
+  ask(nodes, now, {.toRead = true});
+  return stored();
+}
+
+double Points::commit(const Nodes& nodes, const Instant& now) {
+  ask(nodes, now, {.energy = false});
+  answers_.commit();
+  double sum = 0.0;
+  for (std::size_t p = 0; p < volume_.size(); ++p) sum += volume_[p] * answers_.dissipated()[p];
+  return sum;
+}
+
+void Points::requireValid(const Nodes& nodes, const std::string& when, fem::Scrutiny) {
+  findDeformation(nodes.u);
+  for (std::size_t p = 0; p < rows_.points(); ++p)
+    if (const std::string reason = fem::whyInverted(&answers_.F()[9 * p]); !reason.empty())
+      throw NumericalError("point " + std::to_string(p) + " of \"" + options_.name + "\" " + reason, when,
+                           "take a smaller step, a finer grid or a smaller load");
+}
+
+}  // namespace dovetail::mpm::detail

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+
+#include "dovetail/core/error.hpp"
+#include "points.hpp"
+
+namespace dovetail::mpm::detail {
+
+namespace {
+double square(const Vec3& v) { return squaredNorm(v); }
+double square(double v) { return v * v; }
+}  // namespace
+
+using fem::Nodes;
+
+void Points::addMass(std::span<double> mass) const {
+  const std::vector<double> own = massesOf(rows_, carried_);
+  for (std::size_t n = 0; n < own.size(); ++n) mass[n] += own[n];
+}
+
+void Points::addConsistentMass(linalg::NodeMatrix&) const {
+  throw InputError("material points have lumped masses only", options_.name, "set massFraction to 0");
+}
+
+bool Points::wantsOtherNodes(const Nodes& nodes) const {
+  const double most = options_.renewal * options_.grid.spacing;
+  return std::ranges::any_of(nodes.u, [&](const Vec3& u) { return squaredNorm(u) > most * most; });
+}
+
+void Points::layNodes(Nodes& nodes) {
+  rows_ = rowsAt(options_.grid, carried_.x, options_.name);
+  const std::size_t count = rows_.nodes();
+  nodes.X = rows_.X;
+  nodes.u.assign(count, {});
+  nodes.f.assign(count, {});
+  nodes.mass = massesOf(rows_, carried_);
+  nodes.fixed = rows_.fixed;
+  for (std::size_t n = 0; n < count; ++n)
+    if (!(nodes.mass[n] > 0.0)) nodes.fixed[n] = fem::allComponents;
+  nodes.v = velocitiesOf(rows_, options_.grid, carried_, nodes.mass);
+  v0_ = nodes.v;
+  const bool keeps = options_.transfer == Transfer::flip;
+  beyond_ = keeps ? detail::kineticEnergy(options_.grid, carried_) - fem::kineticEnergy(nodes) : 0.0;
+  answers_.moveTo(nodes.u);
+}
+
+double Points::renewNodes(Nodes& nodes, double t) {
+  requireSameNodes(nodes);
+  const double before = fem::kineticEnergy(nodes) + beyond_;
+  const double keep = std::exp(-options_.damping * (t - laidAt_));
+  leaveGrid(rows_, nodes.u, nodes.v, v0_, keep, carried_);
+  F0_.assign(answers_.F().begin(), answers_.F().end());
+  ++renewals_;
+  laidAt_ = t;
+  layNodes(nodes);
+  isNew_ = true;
+  return before - (fem::kineticEnergy(nodes) + beyond_);
+}
+
+void Points::save(ByteWriter& archive) const {
+  archive(carried_.x, carried_.v, carried_.moment, F0_, laidAt_, renewals_);
+  answers_.save(archive);
+}
+
+void Points::load(ByteReader& archive) {
+  Carried read = carried_;
+  std::vector<double> F0;
+  double laidAt = 0.0;
+  std::int64_t renewals = 0;
+  archive(read.x, read.v, read.moment, F0, laidAt, renewals);
+  const auto finite = [](const auto& values) {
+    return std::ranges::all_of(values, [](const auto& value) { return std::isfinite(square(value)); });
+  };
+  if (read.x.size() != carried_.x.size() || read.v.size() != carried_.v.size() ||
+      read.moment.size() != carried_.moment.size() || F0.size() != F0_.size())
+    throw InputError("the state is that of other points", options_.name, "load it into the model that wrote it");
+  if (!finite(read.x) || !finite(read.v) || !finite(read.moment) || !finite(F0) || !std::isfinite(laidAt))
+    throw InputError("the state is not finite", options_.name, "take an older one");
+  answers_.load(archive);
+  carried_ = std::move(read);
+  F0_ = std::move(F0);
+  laidAt_ = laidAt;
+  renewals_ = renewals;
+  isNew_ = false;
+}
+
+}  // namespace dovetail::mpm::detail
