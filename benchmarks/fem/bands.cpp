@@ -7,6 +7,7 @@
 
 #include "band_biaxial.hpp"
 #include "band_layer.hpp"
+#include "band_pressuremeter.hpp"
 #include "band_scatter.hpp"
 #include "band_waves.hpp"
 #include "dovetail/core/error.hpp"
@@ -117,6 +118,22 @@ void showScatter() {
   }
 }
 
+/// A hole under pressure: its opening and its bands.
+void showPressuremeter() {
+  std::printf(
+      "\n| hole under pressure, D, N | pressure | opening | bands | width, m | contrast | step, s | s | residual |\n"
+      "|---|---|---|---|---|---|---|---|---|\n");
+  for (const double modulus : {0.0, 40.0, 400.0}) {
+    const PressuremeterCourse course = inflate({.modulus = modulus});
+    for (const PressuremeterLook& look : course.looks)
+      std::printf("| %g | %.2f | %.2f %% | %d | %.3f | %.2f | %.2e | %.0f | %.1e |\n", modulus, look.pressure,
+                  100.0 * look.opening, look.bands, look.width, look.contrast, course.step, course.seconds,
+                  course.residual);
+    if (course.broken > 0.0) std::printf("| %g | %.2f | broken | | | | | | |\n", modulus, course.broken);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -126,7 +143,7 @@ int main(int argc, char** argv) {
     double end = 0.04;
     program::Options o("fem_bands", "Bands with a width of their own: waves, a shear layer and biaxial tests.");
     o.flag("--quick", quick, "the coarsest mesh alone");
-    o.word("--only", only, "all|waves|layer|biaxial|scatter", "one table");
+    o.word("--only", only, "all|waves|layer|biaxial|scatter|pressuremeter", "one table");
     o.word("--elements", elements, "quad4|quad8", "of the biaxial test");
     o.number("--end STRAIN", end, program::between(0.01, 0.2), "of the biaxial test");
     o.text("--csv FILE", file, "the biaxial test for other programs");
@@ -140,6 +157,7 @@ int main(int argc, char** argv) {
     if (shows("biaxial"))
       showBiaxial(quick, end, elements == "quad4" ? fem::ElementShape::quad4 : fem::ElementShape::quad8, csv.get());
     if (shows("scatter")) showScatter();
+    if (shows("pressuremeter")) showPressuremeter();
     return true;
   });
 }
