@@ -39,7 +39,7 @@ SolidSide& CoupledRun::addSolid(std::unique_ptr<fem::Model> model, const SolidOp
   if (impl_->started)
     throw InputError("the run has started", "solid \"" + options.name + "\"", "add solids before start()");
   requireOwnName(options.name, impl_->solids);
-  if (std::ranges::any_of(model->terms, [](const auto& term) { return term->ownsNodes(); }))
+  if (model && std::ranges::any_of(model->terms, [](const auto& term) { return term->ownsNodes(); }))
     throw InputError("coupled runs do not renew the grid of material points", "solid \"" + options.name + "\"",
                      "take fem::ExplicitIntegrator for a solid of its own");
   impl_->solids.push_back(makeStepper(std::move(model), options));
