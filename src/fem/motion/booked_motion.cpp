@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "dovetail/core/error.hpp"
 #include "dovetail/fem/motion/support_kick.hpp"
 #include "force_sum.hpp"
 #include "run_state.hpp"
@@ -91,6 +92,9 @@ bool BookedMotion::renewNodes(double h) {
   bool any = false;
   for (const auto& term : model.terms)
     if (term->wantsOtherNodes(model.nodes)) {
+      if (!model.constraints.empty())
+        throw InputError("constraints name nodes that are laid out anew", term->name(),
+                         "hold material points by borders of their grid");
       any = true;
       ledger.add("renewals of " + term->name(), term->renewNodes(model.nodes, model.t));
     }
