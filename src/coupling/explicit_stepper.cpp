@@ -44,6 +44,7 @@ public:
     side.outside.give("supports", fem::momentaOf(model_->nodes, *side.mass) - before);
   }
   void jump() override {}
+  std::vector<Vec3> seenVelocities(bool) const override { return model_->nodes.v; }
   void showVelocities(bool) override {}
   void hideVelocities() override {}
 
@@ -117,10 +118,17 @@ public:
     solid_->adopt(*saved.state);
     loads = std::move(saved.loads);
     added_ = saved.added;
+    takeNodes();
   }
 
 protected:
   const ImpulseLedger& ownImpulses() const override { return solid_->impulses; }
+  bool renewOwnNodes() override {
+    if (!solid_->renewNodes(macroStep())) return false;
+    added_ = {};
+    takeNodes();
+    return true;
+  }
 
 private:
   struct Saved final : SavedSolid {
@@ -130,6 +138,13 @@ private:
   };
 
   double macroStep() const { return K_ * dt_; }
+  /// They may have become others.
+  void takeNodes() {
+    side.mass = &solid_->motion.mass();
+    uBefore_.clear();
+    forceBefore_.clear();
+    showOwn();
+  }
   void showOwn() { side.own = K_ == 1 ? std::span<const Vec3>(model_->nodes.f) : std::span<const Vec3>(); }
 
   void addToOwn(const NodalLoad& load) {

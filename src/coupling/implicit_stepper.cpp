@@ -43,11 +43,10 @@ public:
   void showVelocities(bool timeless) override {
     if (!timeless) ++steps_;
     if (byOwnForces_.empty()) return;
-    // Between steps particles have the velocities of the instant, within steps those of half a step before.
-    const double fraction = (timeless ? steps_ : steps_ - 0.5) / K_ - (jumped_ ? 1.0 : 0.0);
-    std::vector<Vec3>& v = model_->nodes.v;
-    hidden_ = v;
-    for (std::size_t n = 0; n < v.size(); ++n) v[n] += fraction * byOwnForces_[n];
+    hidden_ = std::exchange(model_->nodes.v, velocitiesAt(timeless ? steps_ : steps_ - 0.5));
+  }
+  std::vector<Vec3> seenVelocities(bool timeless) const override {
+    return byOwnForces_.empty() ? model_->nodes.v : velocitiesAt(timeless ? steps_ : steps_ + 0.5);
   }
   void hideVelocities() override {
     if (!hidden_.empty()) model_->nodes.v = std::exchange(hidden_, {});
@@ -103,12 +102,19 @@ public:
     auto& saved = dynamic_cast<Saved&>(state);
     ByteReader reader(saved.bytes);
     solid_->load(reader);
+    side.mass = &solid_->mass();
     loads = std::move(saved.loads);
     byOwnForces_ = std::move(saved.byOwnForces);
   }
 
 protected:
   const ImpulseLedger& ownImpulses() const override { return solid_->impulses(); }
+  bool renewOwnNodes() override {
+    if (!solid_->renewNodes()) return false;
+    side.mass = &solid_->mass();
+    byOwnForces_.clear();
+    return true;
+  }
 
 private:
   struct Saved final : SavedSolid {
@@ -118,6 +124,15 @@ private:
   };
 
   double macroStep() const { return K_ * dt_; }
+
+  /// After so many steps of the macro step. Between steps particles have the velocities of the instant, within steps
+  /// those of half a step before.
+  std::vector<Vec3> velocitiesAt(double steps) const {
+    const double fraction = steps / K_ - (jumped_ ? 1.0 : 0.0);
+    std::vector<Vec3> v = model_->nodes.v;
+    for (std::size_t n = 0; n < v.size(); ++n) v[n] += fraction * byOwnForces_[n];
+    return v;
+  }
 
   void kick(const NodalLoad& load, double dt) {
     if (load.touched.empty()) return;

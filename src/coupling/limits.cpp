@@ -82,6 +82,7 @@ StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtEle
   elements.resize(solids.size());
   for (std::size_t s = 0; s < solids.size(); ++s) {
     const SolidSide& side = solids[s]->side;
+    if (side.stepping == Stepping::implicitSteps) addOwnForces(side, 0.0, demand);
     if (side.stepping == Stepping::implicitSteps || !hasElements(*side.model)) continue;
     if (looksAtElements || std::isinf(elements[s].dt)) {
       elements[s] = fem::stableStep(*side.model, side.name);
@@ -90,6 +91,7 @@ StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtEle
     limit.lower({elements[s].dt / K(), elements[s].owner});
     for (dem::ContactDemand::Side& asked : demand.sides)
       if (asked.of == side.model) asked.ownRate = rateOf(asked.of);
+    addOwnForces(side, rateOf(side.model), demand);
   }
   const dem::ContactStep contacts = dem::criticalStep(demand, grains.particles);
   if (contacts.dt < limit.dt) {
@@ -97,6 +99,11 @@ StepLimit CoupledRun::Impl::limitNow(dem::ContactDemand& demand, bool looksAtEle
     if (!contacts.byOwnForces) limit.owner = contacts.owner;
   }
   return limit;
+}
+
+void CoupledRun::Impl::addOwnForces(const SolidSide& side, double rate, dem::ContactDemand& demand) const {
+  for (const auto* connector : grains.terms.all<Connector>())
+    if (&connector->side() == &side) connector->addOwnForces(demand, rate);
 }
 
 /// ω² of a solid's own forces, 1/s²; 0 if it is stepped implicitly.

@@ -39,9 +39,6 @@ SolidSide& CoupledRun::addSolid(std::unique_ptr<fem::Model> model, const SolidOp
   if (impl_->started)
     throw InputError("the run has started", "solid \"" + options.name + "\"", "add solids before start()");
   requireOwnName(options.name, impl_->solids);
-  if (model && std::ranges::any_of(model->terms, [](const auto& term) { return term->ownsNodes(); }))
-    throw InputError("coupled runs do not renew the grid of material points", "solid \"" + options.name + "\"",
-                     "take fem::ExplicitIntegrator for a solid of its own");
   impl_->solids.push_back(makeStepper(std::move(model), options));
   return impl_->solids.back()->side;
 }
@@ -54,10 +51,12 @@ double CoupledRun::macroStep() const { return impl_->macroStep(); }
 void CoupledRun::Impl::findForces(double step, const RunOptions& with) {
   joinParticles();
   requireSides();
+  requireKept(with.lag);
   dem::close(grains);
   dt = step;
   options = with;
   for (const auto& solid : solids) solid->start(dt, K());
+  placeParticles(true);
   const bool refuses = std::exchange(grains.refusesUnstableSteps, false);  // the limit of the whole decides
   sampled = ownForcesDue = true;
   dem::findForces(grains);
@@ -172,6 +171,7 @@ bool CoupledRun::Impl::anyImplicit() const {
 
 void CoupledRun::Impl::macroStep(bool wantsEnergies) {
   for (const auto& solid : solids) solid->stands = false;
+  renewNodes();
   if (options.lag != Lag::none) return lagMacroStep();
   const bool jumpsBetween = K() % 2 == 0 && anyImplicit();
   sampled = wantsEnergies;
@@ -205,6 +205,7 @@ void CoupledRun::Impl::macroStep(bool wantsEnergies) {
 void CoupledRun::Impl::stepParticles(bool last) {
   for (const auto& solid : solids)
     solid->side.isInStep = last || solid->side.stepping == Stepping::explicitSteps || options.lag != Lag::none;
+  grains.step.moved += placeParticles(false);
   dem::updateNeighbourList(grains);
   ownForcesDue = last;
   dem::addForces(grains);
@@ -215,7 +216,43 @@ void CoupledRun::Impl::stepParticles(bool last) {
 void CoupledRun::Impl::jumpBetweenSteps() {
   dem::close(grains);
   for (const auto& solid : solids) solid->jump();
+  placeParticles(true);
   dem::findForces(grains);
+}
+
+/// Those that stand for parts of solids.
+double CoupledRun::Impl::placeParticles(bool timeless) {
+  double moved = 0.0;
+  for (const auto& term : grains.terms)
+    if (auto* const connector = dynamic_cast<Connector*>(term.get()))
+      for (const auto& solid : solids)
+        if (&solid->side == &connector->side() && connector->placesParticles())
+          moved = std::max(moved, connector->placeParticles(grains, solid->seenVelocities(timeless)));
+  return moved;
+}
+
+/// At an instant at which nodes and particles agree. Loads are found anew, at nodes that are others.
+void CoupledRun::Impl::renewNodes() {
+  bool any = false;
+  for (const auto& solid : solids) any |= solid->renewNodes();
+  if (!any) return;
+  dem::close(grains);
+  placeParticles(true);
+  sampled = true;
+  dem::findForces(grains);
+  constrainMacroStep();
+}
+
+/// Nodes that become others have no place where something keeps their numbers.
+void CoupledRun::Impl::requireKept(Lag lag) const {
+  for (const auto* connector : grains.terms.all<Connector>())
+    if (fem::ownsNodes(*connector->side().model) && !connector->followsNodes())
+      throw InputError("\"" + connector->side().name + "\" is made of material points, whose grid is renewed",
+                       connector->name(), "couple it by mpm::PointContact");
+  for (const auto& solid : solids)
+    if (lag != Lag::none && fem::ownsNodes(*solid->side.model))
+      throw InputError("a staggered run knows no material points", "solid \"" + solid->side.name + "\"",
+                       "leave out the lag");
 }
 
 /// The forces with which constraints answer what acts at the ends of macro steps only.

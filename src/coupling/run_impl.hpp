@@ -71,6 +71,8 @@ struct CoupledRun::Impl {
   /// Of the state alone. @param looksAtElements  anew: it costs as much as hundreds of steps
   StepLimit limitNow(dem::ContactDemand& demand, bool looksAtElements);
   double rateOf(const void* model) const;
+  /// Of particles that stand for parts of the solid, to what is asked of them.
+  void addOwnForces(const SolidSide& side, double rate, dem::ContactDemand& demand) const;
   StepLimit criticalStep();
   void lookAtLimit(bool failed = false);
   bool joined() const;
@@ -82,6 +84,9 @@ struct CoupledRun::Impl {
 
   void macroStep(bool wantsEnergies);
   void stepParticles(bool last);
+  double placeParticles(bool timeless);
+  void renewNodes();
+  void requireKept(Lag lag) const;
   void jumpBetweenSteps();
   void constrainMacroStep();
   void reportVelocities();

@@ -129,7 +129,7 @@ std::vector<char> CoupledRun::Impl::save() {
     const SolidSide& side = solids[s]->side;
     ByteWriter own, rest;
     solids[s]->save(own);
-    rest(solids[s]->bookedBefore);
+    rest(solids[s]->bookedBefore, static_cast<std::uint64_t>(side.nodes().X.size()));
     saveLoad(rest, side.load);
     saveLoad(rest, solids[s]->macroLoad);
     saveLoad(rest, loadBefore.empty() ? NodalLoad() : loadBefore[s]);
@@ -161,11 +161,12 @@ CoupledRun::Impl::State CoupledRun::Impl::read(const std::vector<char>& bytes) c
     bool implicit = false;
     archive(name, implicit, own, rest);
     requireSame(name == side.name && implicit == (side.stepping == Stepping::implicitSteps), "solids");
-    const std::size_t nodes = side.nodes().X.size();
     ByteReader reader(std::move(own)), others(std::move(rest));
     State::Solid& saved = state.solids.emplace_back();
     saved.own = solid->read(reader);
-    others(saved.bookedBefore);
+    std::uint64_t nodes = 0;
+    others(saved.bookedBefore, nodes);
+    requireSame(nodes == side.nodes().X.size() || fem::ownsNodes(*side.model), "nodes");
     saved.load = readLoad(others, nodes);
     saved.macroStep = readLoad(others, nodes);
     saved.before = readLoad(others, nodes);

@@ -28,6 +28,13 @@ SolidStepper::SolidStepper(std::unique_ptr<fem::Model> model, const SolidOptions
   side.load = NodalLoad(model_->nodes.X.size());
 }
 
+bool SolidStepper::renewNodes() {
+  if (!renewOwnNodes()) return false;
+  side.load = NodalLoad(model_->nodes.X.size());
+  macroLoad = side.load;
+  return true;
+}
+
 void SolidStepper::kickTouched(const NodalLoad& load, double dt) {
   fem::Nodes& nodes = model_->nodes;
   const std::span<const int> row = side.mass->dofs().freeRow();

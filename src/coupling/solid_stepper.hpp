@@ -38,6 +38,12 @@ public:
   NodalLoad macroLoad;  ///< N: what constraints do in both half macro steps around their ends
   ImpulseLedger::Channel loads{"connectors", {}};  ///< what they have given
 
+  /// Between macro steps: terms that want other nodes get them. @return whether any did: loads are to be found anew
+  bool renewNodes();
+  /// Velocities of the nodes that particles see which stand for them, m/s. @param timeless  in an evaluation without a
+  /// step in time
+  virtual std::vector<Vec3> seenVelocities(bool timeless) const = 0;
+
   /// Forces at the start; the ledger of earlier steps is kept as one sum. @param dt  of particles, s @param K  steps
   /// per macro step
   virtual void start(double dt, int K) = 0;
@@ -93,6 +99,8 @@ public:
   virtual void adopt(SavedSolid& state) = 0;
 
 protected:
+  /// The same of what steps it. @return whether any did
+  virtual bool renewOwnNodes() = 0;
   /// Begins anew where a load step has left the nodes.
   virtual void restart() = 0;
   virtual const ImpulseLedger& ownImpulses() const = 0;

@@ -14,7 +14,8 @@ public:
 
   std::string name() const override { return options_.name; }
   bool usesVelocity() const override { return false; }
-  bool actsWithin() const override { return true; }
+  /// Borders push.
+  bool actsWithin() const override { return options_.grid.borders.empty(); }
   bool isBody() const override { return true; }
   bool isSymmetric() const override { return answers_.field().isSymmetric(); }
   bool feelsRates() const override { return answers_.field().feelsRates(); }

@@ -80,6 +80,30 @@ TEST(Renewals, KeepMomenta) {
     }
 }
 
+/// In steps of several times the explicit limit.
+TEST(Renewals, KeepTheBooksOfImplicitSteps) {
+  const Course explicitly = fly(Transfer::apic, 1.0);
+  for (const fem::Scheme& scheme : {fem::newmark(), fem::energyMomentum(), fem::generalisedAlpha(0.8)}) {
+    auto [solid, model] = flying(Transfer::apic, true, Shape::quadratic);
+    fem::ImplicitIntegrator run(model, 0.6e-3, {.scheme = scheme, .massFraction = 0.0});
+    const Vec3 momentum = fem::momentum(model.nodes), turning = fem::angularMomentum(model.nodes);
+    run.run(100);
+    EXPECT_NEAR(static_cast<double>(solid->renewals()), static_cast<double>(explicitly.renewals), 1.0);
+    EXPECT_LE(std::abs(run.ledger().residual()), 1e-3 * explicitly.moved) << scheme.name;
+    EXPECT_NEAR(run.ledger().find("renewals of points", EnergyLedger::Kind::booked)->joules, explicitly.lost,
+                0.1 * explicitly.lost);
+    EXPECT_LE(norm(fem::momentum(model.nodes) - momentum), 1e-7 * norm(momentum));
+    EXPECT_LE(norm(fem::angularMomentum(model.nodes) - turning), 1e-3 * norm(turning));
+  }
+}
+
+TEST(Renewals, RefuseConstraintsOfNodesThatGo) {
+  auto [solid, model] = flying(Transfer::flip, true, Shape::quadratic);
+  model.constraints.hold(std::vector<int>{0});
+  fem::ExplicitIntegrator run(model, 0.2e-3);
+  EXPECT_THROW(run.run(300), InputError);
+}
+
 TEST(Renewals, GoOnFromAStateWithOtherNodes) {
   const auto started = [] { return flying(Transfer::flip, true, Shape::quadratic); };
   Flight whole = started(), broken = started(), again = started();

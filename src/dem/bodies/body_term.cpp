@@ -52,6 +52,10 @@ void BodyTerm::check(const Model& m) const {
                        "body " + std::to_string(clumps.body[k]), "give members of bodies the weight 1");
 }
 
+void BodyTerm::own(Particles& particles) const {
+  for (const int i : clumps.particle) setOwner(particles, i, Owner::body);
+}
+
 double BodyTerm::move(Model& m, const Step& step) {
   if (step.closing > 0.0) {
     kickBodies(bodies, 0.5 * step.closing);

@@ -84,8 +84,7 @@ void bookHalf(Model& m, double dt) {
 
 void setOwners(Model& m) {
   m.particles.owner.clear();
-  for (const BodyTerm* term : m.terms.all<BodyTerm>())
-    for (const int i : term->clumps.particle) setOwner(m.particles, i, Owner::body);
+  for (const auto& term : m.terms) term->own(m.particles);
   for (DriveTerm* term : m.terms.all<DriveTerm>())
     for (const int i : term->numbers(m.particles)) setOwner(m.particles, i, Owner::drive);
 }

@@ -41,6 +41,10 @@ void addMass(Model& model) {
   model.nodes.bodyMass = std::move(bodyMass);
 }
 
+bool ownsNodes(const Model& model) {
+  return std::ranges::any_of(model.terms, [](const auto& term) { return term->ownsNodes(); });
+}
+
 void evaluateForces(Model& model, const Instant& now) {
   std::fill(model.nodes.f.begin(), model.nodes.f.end(), Vec3{});
   for (const auto& term : model.terms) term->addForces(model.nodes, now, model.nodes.f);

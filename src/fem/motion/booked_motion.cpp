@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "dovetail/core/error.hpp"
 #include "dovetail/fem/motion/support_kick.hpp"
 #include "force_sum.hpp"
+#include "renewal.hpp"
 #include "run_state.hpp"
 
 namespace dovetail::fem {
@@ -88,17 +88,7 @@ bool BookedMotion::halfKick(double h, double time, bool books) {
 }
 
 bool BookedMotion::renewNodes(double h) {
-  Model& model = motion.model();
-  bool any = false;
-  for (const auto& term : model.terms)
-    if (term->wantsOtherNodes(model.nodes)) {
-      if (!model.constraints.empty())
-        throw InputError("constraints name nodes that are laid out anew", term->name(),
-                         "hold material points by borders of their grid");
-      any = true;
-      ledger.add("renewals of " + term->name(), term->renewNodes(model.nodes, model.t));
-    }
-  if (!any) return false;
+  if (!detail::renewNodes(motion.model(), ledger, impulses)) return false;
   motion.renew();
   findForces(h, true, false);
   return true;
@@ -145,7 +135,7 @@ std::shared_ptr<BookedMotion::State> BookedMotion::read(ByteReader& archive, con
 
 void BookedMotion::adopt(State& state) {
   detail::adopt(std::move(state.model), motion.model());
-  if (detail::ownsNodes(motion.model())) motion.renew();
+  if (ownsNodes(motion.model())) motion.renew();
   ledger = std::move(state.ledger);
   impulses = std::move(state.impulses);
   outside_.clear();

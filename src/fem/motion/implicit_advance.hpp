@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "dovetail/fem/motion/implicit_motion.hpp"
 #include "implicit_step.hpp"
@@ -12,17 +13,29 @@ namespace dovetail::fem {
 struct ImplicitMotion::Impl {
   Model& model;
   ImplicitOptions options;
-  DofMap dofs;
-  ModelMass mass;
   Profile profile{true};
-  detail::ImplicitStep solver;
+  /// What belongs to the nodes.
+  struct System {
+    DofMap dofs;
+    ModelMass mass;
+    detail::ImplicitStep solver;
+    System(Model& model, const ImplicitOptions& options, Profile& profile);
+  };
+  std::unique_ptr<System> system;
   std::int64_t steps = 0, cuts = 0, iterations = 0;
+  std::int64_t factorisationsBefore = 0;  // of systems that are gone
   double largestResidual = 0.0;
   bool begun = false;
 
   Impl(Model& model, const ImplicitOptions& options);
+  const DofMap& dofs() const { return system->dofs; }
+  const ModelMass& mass() const { return system->mass; }
+  detail::ImplicitStep& solver() const { return system->solver; }
+  /// Nodes have become others: masses, constraints and tangents are made anew.
+  void renew();
+  void makeSystem();
   /// The end of a part of length h that is over.
-  Instant accepted(double h) const { return {model.t, h, &mass, !options.scheme.conserving}; }
+  Instant accepted(double h) const { return {model.t, h, &mass(), !options.scheme.conserving}; }
   /// Takes the present state as the start of a step of dt.
   void begin(double dt);
   /// v += dt M⁻¹ f on the free components.

@@ -87,10 +87,6 @@ ModelState readModel(ByteReader& archive, const std::string& run, const Model& m
   return state;
 }
 
-bool ownsNodes(const Model& model) {
-  return std::ranges::any_of(model.terms, [](const auto& term) { return term->ownsNodes(); });
-}
-
 void adopt(ModelState state, Model& model) {
   const Nodes nodesBefore = model.nodes;
   std::vector<std::vector<char>> before;

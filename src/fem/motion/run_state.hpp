@@ -29,8 +29,6 @@ void writeModel(ByteWriter& archive, const std::string& run, const Model& model)
 /// The model is left alone.
 /// @throws InputError if the state is of another kind of run, has other nodes or terms, or holds a NaN
 ModelState readModel(ByteReader& archive, const std::string& run, const Model& model);
-/// Whether a term lays out the nodes: a state may have another number of them than the model.
-bool ownsNodes(const Model& model);
 /// Puts the state in force. @throws InputError if a term refuses its part; the model is then as it was
 void adopt(ModelState state, Model& model);
 

@@ -46,6 +46,18 @@ public:
   virtual std::vector<double> solidWeight() const { return {}; }
   virtual void markTied(std::span<std::uint8_t> /*tied*/) const {}
 
+  /// Whether it acts on nodes that the solid lays out anew between macro steps (fem::Term::ownsNodes): others keep the
+  /// numbers of nodes.
+  virtual bool followsNodes() const { return false; }
+  /// Whether particles stand for a part of the solid.
+  virtual bool placesParticles() const { return false; }
+  /// Puts them where the nodes have brought them.
+  /// @param v  of the nodes, as particles see them, m/s @return how far one has moved at most, m
+  virtual double placeParticles(dem::Model&, std::span<const Vec3> /*v*/) { return 0.0; }
+  /// Adds what the solid asks of these particles beside contacts. @param rate  ω² of its own forces, 1/s²; 0 if it is
+  /// stepped implicitly
+  virtual void addOwnForces(dem::ContactDemand&, double /*rate*/) const {}
+
   /// Stored energy that the particles' model does not account for, J.
   virtual double stored() const { return 0.0; }
   /// Energy lost so far, J; negative if energy was created. Without what the particles' model accounts for.

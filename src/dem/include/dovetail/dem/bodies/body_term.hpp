@@ -20,6 +20,7 @@ public:
   std::unique_ptr<Term> clone() const override { return std::make_unique<BodyTerm>(*this); }
   Order order() const override { return Order::bodies; }
   void check(const Model& m) const override;
+  void own(Particles& particles) const override;
   double move(Model& m, const Step& step) override;
   void neighbourListUpdated(Model& m) override;
   void leaving(Model& m, std::vector<char>& leaves) override;

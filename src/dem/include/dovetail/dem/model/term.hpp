@@ -57,6 +57,8 @@ public:
 
   /// Before the first step, and again when particles were added or removed. @throws InputError saying what is wrong
   virtual void check(const Model&) const {}
+  /// Marks particles that it moves (setOwner), where particles, terms or their numbers have changed.
+  virtual void own(Particles&) const {}
   /// Moves what the term owns by step.dt: [kick(closing/2)] · kick(dt/2) · drift(dt), or along a given motion.
   /// @return how far it has moved any particle beyond what the particles' own sweep did, m
   virtual double move(Model&, const Step&) { return 0.0; }

@@ -11,8 +11,9 @@
 
 namespace dovetail::dem {
 
-/// What moves a particle in place of its own forces: the body of its clump, or a drive.
-enum class Owner : std::uint8_t { nobody, body, drive };
+/// What moves a particle in place of its own forces: the body of its clump, a drive, or a solid that it stands for a
+/// part of.
+enum class Owner : std::uint8_t { nobody, body, drive, solid };
 
 /// Spheres. All arrays that are in use have one entry per particle. What refers to a particle by its number is out of
 /// date as soon as `revision` has changed; what must last refers to it by its id.
@@ -42,7 +43,9 @@ struct Particles {
   std::size_t size() const { return x.size(); }
   bool rotates() const { return !omega.empty(); }
   Owner ownerOf(std::size_t i) const { return owner.empty() ? Owner::nobody : owner[i]; }
-  bool isMember(std::size_t i) const { return ownerOf(i) == Owner::body; }
+  /// Whether something else counts its mass, its motion and the forces on it.
+  bool isMember(std::size_t i) const { return ownerOf(i) == Owner::body || isOfSolid(i); }
+  bool isOfSolid(std::size_t i) const { return ownerOf(i) == Owner::solid; }
   double weightOf(std::size_t i) const { return weight.empty() ? 1.0 : weight[i]; }
 };
 

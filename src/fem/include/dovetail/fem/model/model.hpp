@@ -38,6 +38,9 @@ Model makeModel(const SolidMesh& mesh);
 /// Sets nodes.mass and bodyMass from the terms. @throws InputError naming a node that no term gives a mass
 void addMass(Model& model);
 
+/// Whether a term lays out the nodes (a grid under material points): their number changes in a run then.
+bool ownsNodes(const Model& model);
+
 /// The groups of nodes that the terms couple.
 linalg::MatrixPattern patternOf(const Model& model);
 /// A matrix with a block for every pair of nodes that a term couples; all zero.

@@ -32,8 +32,8 @@ public:
   bool halfKick(double h, double time, bool books);
   /// The materials accept the step of length h that ends here.
   void accept(double h, bool books) { ledger.accept(motion.model(), {motion.model().t, h, &motion.mass()}, books); }
-  /// Between steps, the last of which had the length h: terms that want other nodes get them, and the kinetic energy
-  /// that this takes is booked. @return whether any did: nodes are then others, with their forces
+  /// Between steps, the last of which had the length h: terms that want other nodes get them; what this takes of the
+  /// kinetic energy, and gives of momenta, is booked. @return whether any did: nodes are then others, with their forces
   bool renewNodes(double h);
   /// Sets the stored channels: energies of the last evaluate with them, and kinetic energy.
   void sample() { ledger.sample(motion.model(), motion.energies(), motion.kineticEnergy()); }

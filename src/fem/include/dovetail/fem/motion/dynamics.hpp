@@ -165,6 +165,9 @@ public:
   linalg::LinearForecast forecast();
   /// Starts anew from the model as it is now, which someone else has moved; the ledger continues.
   void restart();
+  /// Terms that want other nodes get them, as at the start of every step; what this takes is booked. @return whether
+  /// any did: nodes and masses are then others
+  bool renewNodes();
   /// Takes another scheme of Newmark's from the next step on. @throws InputError if either is of another family
   void use(const Scheme& scheme);
   const ModelMass& mass() const;
