@@ -40,14 +40,15 @@ void CoupledRun::stop() {
                             {after.momentum - before.momentum, after.angularMomentum - before.angularMomentum});
 }
 
-/// Of contacts, elements, gradients and connectors, J: neither of weights nor of loads, whose zero is anywhere.
+/// Of contacts, elements, material points, gradients and connectors, J: neither of weights nor of loads, whose zero is
+/// anywhere.
 static double elasticEnergy(CoupledRun& run) {
   double sum = dem::energies(run.grains).contacts;
   for (const auto* connector : run.grains.terms.all<Connector>()) sum += connector->stored();
   for (std::size_t k = 0; k < run.solids(); ++k) {
     const fem::Model& model = *run.solid(k).model;
     for (const auto& term : model.terms)
-      if (term->actsWithin()) sum += term->energy(model.nodes, {.t = model.t});
+      if (term->isBody() || term->actsWithin()) sum += term->energy(model.nodes, {.t = model.t});
   }
   return sum;
 }

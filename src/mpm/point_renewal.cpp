@@ -22,9 +22,17 @@ void Points::addConsistentMass(linalg::NodeMatrix&) const {
   throw InputError("material points have lumped masses only", options_.name, "set massFraction to 0");
 }
 
+/// Points go no farther than nodes do. Nodes at edges, which points hardly reach, go far under little, and may as far
+/// as the spacing.
 bool Points::wantsOtherNodes(const Nodes& nodes) const {
-  const double most = options_.renewal * options_.grid.spacing;
-  return std::ranges::any_of(nodes.u, [&](const Vec3& u) { return squaredNorm(u) > most * most; });
+  const double spacing = options_.grid.spacing, most = options_.renewal * spacing;
+  double farthest = 0.0;
+  for (const Vec3& u : nodes.u) farthest = std::max(farthest, squaredNorm(u));
+  if (!(farthest > most * most)) return false;
+  if (farthest > spacing * spacing) return true;
+  for (std::size_t p = 0; p < rows_.points(); ++p)
+    if (squaredNorm(valueAt(rows_, p, nodes.u)) > most * most) return true;
+  return false;
 }
 
 void Points::layNodes(Nodes& nodes) {
@@ -41,7 +49,6 @@ void Points::layNodes(Nodes& nodes) {
   v0_ = nodes.v;
   const bool keeps = options_.transfer == Transfer::flip;
   beyond_ = keeps ? detail::kineticEnergy(options_.grid, carried_) - fem::kineticEnergy(nodes) : 0.0;
-  answers_.moveTo(nodes.u);
 }
 
 double Points::renewNodes(Nodes& nodes, double t) {
@@ -53,6 +60,7 @@ double Points::renewNodes(Nodes& nodes, double t) {
   ++renewals_;
   laidAt_ = t;
   layNodes(nodes);
+  answers_.moveTo(nodes.u);
   isNew_ = true;
   return before - (fem::kineticEnergy(nodes) + beyond_);
 }

@@ -25,11 +25,17 @@ struct Hitter {
     return number < 0 ? "inserted grains" : "particle " + std::to_string(p.id[static_cast<std::size_t>(number)]);
   }
 };
-/// The two of each material that are moved most easily.
-using Hitters = std::map<int, std::array<Hitter, 2>>;
+/// The two of each kind that are moved most easily.
+/// Points of solids stand apart: those of one solid never meet each other.
+struct Kind {
+  int material = 0;
+  bool ofSolid = false;
+  auto operator<=>(const Kind&) const = default;
+};
+using Hitters = std::map<Kind, std::array<Hitter, 2>>;
 
-void offer(Hitters& hitters, int material, const Hitter& one) {
-  auto& [first, second] = hitters[material];
+void offer(Hitters& hitters, const Kind& kind, const Hitter& one) {
+  auto& [first, second] = hitters[kind];
   if (one.inverseMass > first.inverseMass) {
     second = std::exchange(first, one);
   } else if (one.inverseMass > second.inverseMass) {
@@ -78,7 +84,7 @@ void addNewcomers(const InsertionOptions& s, Crowd& crowd) {
   constexpr double lever = 3.0;  // of members at the ends of clumps
   crowd.add(s.region, s.velocity, true);
   const auto offerTwo = [&](double inverse, double radius) {
-    for (Hitters* const table : {&crowd.free, &crowd.all, &crowd.all}) offer(*table, s.material, {inverse, radius});
+    for (Hitters* const table : {&crowd.free, &crowd.all, &crowd.all}) offer(*table, {s.material}, {inverse, radius});
   };
   for (const ClumpShape& shape : s.shapes)
     offerTwo(lever / shape.properties.mass, *std::min_element(shape.radius.begin(), shape.radius.end()));
@@ -94,9 +100,9 @@ Crowd crowdOf(const Model& m, const ContactDemand& demand) {
   for (std::size_t i = 0; i < p.size(); ++i) {
     const bool isFree = i >= demand.stiffness.size() || demand.stiffness[i] == 0.0;
     crowd.add({p.x[i], p.x[i]}, p.v[i], isFree);
-    const int material = p.material.empty() ? 0 : int{p.material[i]};
-    offer(crowd.all, material, {inverse[i], p.radius[i], static_cast<int>(i)});
-    if (isFree) offer(crowd.free, material, {inverse[i], p.radius[i], static_cast<int>(i)});
+    const Kind kind{p.material.empty() ? 0 : int{p.material[i]}, p.isOfSolid(i)};
+    offer(crowd.all, kind, {inverse[i], p.radius[i], static_cast<int>(i)});
+    if (isFree) offer(crowd.free, kind, {inverse[i], p.radius[i], static_cast<int>(i)});
   }
   for (const InsertionTerm* insertion : m.terms.all<InsertionTerm>())
     addNewcomers(insertion->insertion.settings, crowd);
@@ -195,13 +201,14 @@ void meetEachOther(const Model& m, const Crowd& crowd, ImpactLimit& limit) {
   const double g = norm(m.gravity);
   const double speed =
       fallen(norm(crowd.velocities.upper - crowd.velocities.lower), heightOf(crowd.places, m.gravity), g);
-  for (const auto& [material, hitters] : crowd.free)
+  for (const auto& [kind, hitters] : crowd.free)
     for (const auto& [other, candidates] : crowd.all) {
+      if (kind.ofSolid && other.ofSolid) continue;
       const Hitter& first = hitters[0];
-      const bool same = material == other && first.number == candidates[0].number && first.number >= 0;
+      const bool same = kind == other && first.number == candidates[0].number && first.number >= 0;
       const Hitter& second = candidates[same ? 1 : 0];
       if (second.inverseMass < 0.0 || first.inverseMass + second.inverseMass == 0.0) continue;
-      const Meeting meeting(*m.laws, first, second, {material, other}, m.particles.rotates());
+      const Meeting meeting(*m.laws, first, second, {kind.material, other.material}, m.particles.rotates());
       const double depth = meeting.depth(speed, meeting.effectiveMass());
       note(limit, meeting.limitOf(meeting.demandAt(depth)), depth / meeting.leastRadius(),
            "an impact of " + first.name(m.particles) + " with " + second.name(m.particles));
@@ -215,11 +222,11 @@ void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partne
   if (std::isinf(laws.reach())) return;
   const double speed =
       fallen(crowd.largestSpeed() + partner.speed, dropTo(partner, crowd.places, m.gravity), norm(m.gravity));
-  for (const auto& [material, two] : crowd.free) {
+  for (const auto& [kind, two] : crowd.free) {
     const Hitter& hitter = two[0];
     if (hitter.inverseMass <= 0.0 && partner.inverseMass <= 0.0) continue;
     const Hitter wall{0.0, flat * hitter.radius};
-    const Meeting meeting(laws, hitter, wall, {material, partner.material}, m.particles.rotates());
+    const Meeting meeting(laws, hitter, wall, {kind.material, partner.material}, m.particles.rotates());
     const double depth = meeting.depth(speed, meeting.effectiveMass());
     ContactDemand demand = meeting.demandAt(depth);
     if (partner.inverseMass > 0.0 && !demand.links.empty()) {

@@ -146,8 +146,7 @@ void stop(Model& m) {
 double kineticEnergy(const Model& m) {
   Energies e;
   e.kinetic = kineticEnergy(m.particles);
-  for (const BodyTerm* term : m.terms.all<BodyTerm>()) term->addEnergies(m, e);
-  for (const WallServo* servo : servosOf(m)) e.kinetic += servo->kineticEnergy();
+  for (const auto& term : m.terms) term->addEnergies(m, e);
   return e.kinetic;
 }
 

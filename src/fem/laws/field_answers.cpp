@@ -103,9 +103,33 @@ void FieldAnswers::revert() {
   asked_ = false;
 }
 
+void FieldAnswers::save(ByteWriter& archive) const {
+  archive(F_, P_, energy_, u_, dt_, rateAtEnd_, asked_, hasEnergy_, committed_);
+  field_->save(archive);
+}
+
 void FieldAnswers::load(ByteReader& archive) {
+  std::vector<double> F, P, energy;
+  std::vector<Vec3> u;
+  double dt = 0.0;
+  bool rateAtEnd = false, asked = false, hasEnergy = false, committed = false;
+  archive(F, P, energy, u, dt, rateAtEnd, asked, hasEnergy, committed);
+  if (F.size() != F_.size() || P.size() != P_.size() || energy.size() != energy_.size())
+    throw InputError("the state is that of other points", field_->name(), "load it into the model that wrote it");
+  for (const std::vector<double>* const numbers : {&F, &P, &energy})
+    if (!std::ranges::all_of(*numbers, [](double value) { return std::isfinite(value); }))
+      throw InputError("the state is not finite", field_->name(), "take an older one");
   field_->load(archive);
-  asked_ = false;
+  F_ = std::move(F);
+  P_ = std::move(P);
+  energy_ = std::move(energy);
+  u_ = std::move(u);
+  dt_ = dt;
+  rateAtEnd_ = rateAtEnd;
+  asked_ = asked;
+  hasTangent_ = false;
+  hasEnergy_ = hasEnergy;
+  committed_ = committed;
 }
 
 std::size_t FieldAnswers::memory() const {

@@ -31,7 +31,7 @@ struct PointOptions {
   GridOptions grid{};
   Transfer transfer = Transfer::flip;
   double damping = 0.0;   ///< 1/s: what of the difference from the velocity of the nodes a point loses (PIC), of `flip`
-  double renewal = 0.25;  ///< travel of a node over the spacing at which the grid is renewed, > 0 and at most 0.5
+  double renewal = 0.25;  ///< travel of a point over the spacing at which the grid is renewed, > 0 and at most 0.5
   std::string name = "points";
 };
 

@@ -46,7 +46,9 @@ public:
   void moveTo(std::span<const Vec3> u) { u_.assign(u.begin(), u.end()); }
   void commit();
   void revert();
-  void save(ByteWriter& archive) const { field_->save(archive); }
+  /// With the last answers: they need not be asked for anew.
+  void save(ByteWriter& archive) const;
+  /// @throws InputError for those of other points, or numbers that are not finite; all is then as it was
   void load(ByteReader& archive);
   /// Bytes.
   std::size_t memory() const;
