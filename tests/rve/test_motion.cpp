@@ -81,6 +81,24 @@ TEST(Motion, StepsAboveTheCriticalOneAreRefused) {
   step(cell, before.criticalStep);
 }
 
+TEST(Motion, CollisionsOfFewGrainsLoseEnergy) {
+  // Five discs in a row with gaps as wide as they are, at the steps and with the damping of cells in solids.
+  constexpr double d = 2e-3;
+  Grains row;
+  for (int i = 0; i < 5; ++i) row.centre.push_back({2.0 * d * i, 0.0, 0.0});
+  row.radius.assign(5, 0.5 * d);
+  const Rve still = makeRve(row, {{Vec3{10.0 * d, 0, 0}, Vec3{0, 5.0 * d, 0}, Vec3{0, 0, 1}}, {true, true, false}},
+                            {.stiffness = 1e4, .tangential = 0.0, .friction = 0.0});
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 4; ++trial) {
+    Rve cell = still;
+    cell.state.v[0] = randomMotion(cell.state.v, 1.0, random)[0];
+    const double before = kineticEnergy(cell);
+    for (int k = 0; k < 3000; ++k) step(cell, 0.8 * cell.state.criticalStep, Eigen::Matrix3d::Identity(), 0.1);
+    EXPECT_LT(kineticEnergy(cell) + storedEnergy(cell), 0.7 * before) << trial;
+  }
+}
+
 TEST(Motion, PathsThatCannotBeGoneAreRefused) {
   Rve cell = pressedDiscs(40);
   EXPECT_THROW(followPath(cell, plane(1.06, 0, 0, 1)), InputError);
