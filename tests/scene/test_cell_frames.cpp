@@ -65,6 +65,7 @@ TEST(CellFrames, GrainsOfACellCarryItsStress) {
   std::ostringstream log;
   ASSERT_TRUE(run(shown, {.folder = folder / "out", .progress = false}, log));
   EXPECT_EQ(log.str().find("no grains"), std::string::npos);  // contacts and spins are those of the cell
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/contacts.pvd"));
   const FrameContent grains = lastFrame(folder / "out/cell_corner.pvd"),
                      lines = lastFrame(folder / "out/cell_corner_contacts.pvd"),
                      points = lastFrame(folder / "out/points_block.pvd");

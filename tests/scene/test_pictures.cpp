@@ -86,6 +86,32 @@ TEST(Pictures, ASectionClosesWhatIsLeft) {
     }
 }
 
+TEST(Pictures, ASectionThroughAPlaneOfNodesIsThatOfTheFacesThere) {
+  for (const double sign : {1.0, -1.0}) {
+    io::FrameContent frame = cubes(false);
+    for (std::size_t k = 0; k < frame.position.size(); ++k)  // nodes that have moved a little to either side
+      frame.position[k].x += k % 2 == 0 ? 1e-7 : -2e-7;
+    const Cut cut{0, 1.0, sign, 1e-6};
+    const auto surface = surfaceOf(frame, frame.position, {}, 0, cut);
+    EXPECT_NEAR(areaOf(surface), 6.0, 1e-5);  // one cube is left, and closed
+    std::vector<picture::Triangle> section;
+    for (const auto& t : surface)
+      if (cut.height(t.corner[0]) == 0.0 && cut.height(t.corner[1]) == 0.0 && cut.height(t.corner[2]) == 0.0 &&
+          areaOf({t}) > 1e-3)
+        section.push_back(t);
+    EXPECT_NEAR(areaOf(section), 1.0, 1e-5);
+    EXPECT_NEAR(linesOf(section), 4.0, 1e-5);  // around the face
+  }
+}
+
+TEST(Pictures, APlaneIsNotSeenFromItsEdge) {
+  const geometry::Box plane{{0, 0, 0}, {2, 1, 0}};
+  EXPECT_FALSE(isSeenFromItsEdge(plane, viewOf(plane, {0, 0, 1}, {}, {})));
+  EXPECT_FALSE(isSeenFromItsEdge(plane, viewOf(plane, {0, 0, 1}, 30.0, 0.0)));
+  EXPECT_TRUE(isSeenFromItsEdge(plane, viewOf(plane, {0, 0, 1}, 90.0, 0.0)));
+  EXPECT_FALSE(isSeenFromItsEdge({{0, 0, -0.1}, {2, 1, 0.1}}, viewOf(plane, {0, 0, 1}, 90.0, 0.0)));
+}
+
 TEST(Pictures, ValuesOfCellsAreAveragedAtPoints) {
   const io::FrameContent frame = cubes(false);
   const std::vector<double> mean = atPoints(frame, {1.0, 3.0});

@@ -54,14 +54,17 @@ struct Cell {
   const std::size_t* point;
   std::size_t points;
 
+  /// Number of the edge between two corners, or none.
+  std::optional<std::size_t> edge(int a, int b) const {
+    for (std::size_t e = 0; e < shape->edges.size(); ++e)
+      if (const auto [p, q] = shape->edges[e]; (p == a && q == b) || (p == b && q == a)) return e;
+    return std::nullopt;
+  }
   /// The node in the middle of an edge, or none.
   std::optional<std::size_t> middle(int a, int b) const {
-    for (std::size_t e = 0; e < shape->edges.size(); ++e)
-      if (const auto [p, q] = shape->edges[e]; (p == a && q == b) || (p == b && q == a)) {
-        const std::size_t k = static_cast<std::size_t>(shape->corners) + e;
-        return k < points ? std::optional(point[k]) : std::nullopt;
-      }
-    return std::nullopt;
+    const auto e = edge(a, b);
+    const std::size_t k = static_cast<std::size_t>(shape->corners) + e.value_or(points);
+    return k < points ? std::optional(point[k]) : std::nullopt;
   }
 };
 
@@ -120,12 +123,15 @@ public:
       std::array<Corner, 4> c;
       std::array<double, 4> height;
       std::vector<int> before, after;
+      bool reachesBehind = false;
       for (std::size_t k = 0; k < 4; ++k) {
         c[k] = corner(cell.point[tet[k]]);
         height[k] = cut.height(c[k].at);
         (height[k] > 0.0 ? before : after).push_back(static_cast<int>(k));
+        reachesBehind = reachesBehind || height[k] < 0.0;
       }
-      if (before.empty() || after.empty()) continue;
+      // Of those that only touch the plane, one with a whole face in it has a section.
+      if (before.empty() || (!reachesBehind && after.size() != 3)) continue;
       // Edges of the tetrahedron that are cut, in turn around the section.
       std::vector<std::array<int, 2>> ring;
       for (const int b : before)
@@ -136,7 +142,11 @@ public:
         const auto i = static_cast<std::size_t>(b), j = static_cast<std::size_t>(a);
         rim.push_back(middleOf(c[i], c[j], height[i] / (height[i] - height[j])));
       }
-      const auto line = [&](std::size_t k) { return onFace(cell, tet, ring[k], ring[(k + 1) % ring.size()]); };
+      const auto line = [&](std::size_t k) {
+        const std::array<int, 2> one = ring[k], next = ring[(k + 1) % ring.size()];
+        if (reachesBehind) return onFace(cell, tet, one, next);
+        return cell.edge(tet[static_cast<std::size_t>(one[1])], tet[static_cast<std::size_t>(next[1])]) ? 1 : 0;
+      };
       if (rim.size() == 3) {
         add(rim[0], rim[1], rim[2], static_cast<std::uint8_t>(line(0) | line(1) << 1 | line(2) << 2));
       } else {

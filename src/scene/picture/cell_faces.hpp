@@ -1,6 +1,7 @@
 // The surface of a solid's frame as triangles, and its section by a plane.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -14,7 +15,11 @@ namespace dovetail::scene {
 struct Cut {
   int axis = 0;
   double at = 0.0, sign = 1.0;
-  double height(const Vec3& x) const { return sign * (x[axis] - at); }
+  double blur = 0.0;  ///< m: what is no farther away lies on the plane, as nodes do that it was laid through
+  double height(const Vec3& x) const {
+    const double away = sign * (x[axis] - at);
+    return std::abs(away) > blur ? away : 0.0;
+  }
 };
 
 /// Means over the cells that meet at each point.

@@ -80,6 +80,9 @@ public:
     geometry::Box seen = box_;
     if (liesInPlane(some.back())) seen.lower.z = seen.upper.z = 0.0;
     camera_ = viewOf(seen, up, options_.azimuth, options_.elevation);
+    if (isSeenFromItsEdge(box_, camera_))
+      throw InputError("all lies in a plane that is seen from its edge", "--azimuth, --elevation",
+                       "give others, or leave both out to look across the plane");
     chooseCut();
     placeCamera(some, frames_.read(which.back()));
   }
@@ -142,7 +145,9 @@ private:
     // Not in the very middle, where many meshes have a plane of nodes, which shows none of its elements.
     const double fraction = camera_.back[axis] < 0.0 ? 0.53 : 0.47;
     const double middle = box_.lower[axis] + fraction * (box_.upper[axis] - box_.lower[axis]);
-    cut_ = Cut{axis, options_.cutAxis.empty() ? middle : options_.cutAt, camera_.back[axis] < 0.0 ? -1.0 : 1.0};
+    constexpr double aPixel = 1e-3;  // of the picture
+    cut_ = Cut{axis, options_.cutAxis.empty() ? middle : options_.cutAt, camera_.back[axis] < 0.0 ? -1.0 : 1.0,
+               aPixel * sizeOfBox()};
   }
 
   /// So that all that is drawn fills the room that the legend leaves.

@@ -20,6 +20,10 @@ std::pair<double, double> endsOf(std::vector<double> values) {
 
 constexpr double degree = std::numbers::pi / 180.0;
 
+bool isFlat(const geometry::Box& box, int axis) {
+  return box.upper[axis] - box.lower[axis] <= 1e-6 * norm(box.upper - box.lower);
+}
+
 }  // namespace
 
 geometry::Box boxOf(const picture::Drawing& drawing) {
@@ -51,7 +55,7 @@ geometry::Box boxOf(const picture::Drawing& drawing) {
 picture::Camera viewOf(const geometry::Box& box, const Vec3& given, std::optional<double> azimuth,
                        std::optional<double> elevation) {
   // Plane strain is looked at across its plane.
-  const bool isPlane = box.upper.z - box.lower.z <= 1e-6 * norm(box.upper - box.lower);
+  const bool isPlane = isFlat(box, 2);
   const Vec3 up = isPlane && std::abs(normalized(given).z) > 0.9 ? Vec3{0, 1, 0} : given;
   if (isPlane && !azimuth && !elevation) azimuth = elevation = 0.0;
   const Vec3 z = normalized(up), size = box.upper - box.lower;
@@ -77,6 +81,12 @@ picture::Camera viewOf(const geometry::Box& box, const Vec3& given, std::optiona
   camera.up = cross(camera.back, camera.right);
   camera.centre = 0.5 * (box.lower + box.upper);
   return camera;
+}
+
+bool isSeenFromItsEdge(const geometry::Box& box, const picture::Camera& camera) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (isFlat(box, axis) && std::abs(camera.back[axis]) < 1e-3) return true;
+  return false;
 }
 
 void Extent::add(const picture::Camera& camera, const Vec3& place, double radius) {

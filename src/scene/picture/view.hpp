@@ -19,6 +19,9 @@ geometry::Box boxOf(const picture::Drawing& drawing);
 picture::Camera viewOf(const geometry::Box& box, const Vec3& up, std::optional<double> azimuth,
                        std::optional<double> elevation);
 
+/// Whether nothing of a flat box is seen.
+bool isSeenFromItsEdge(const geometry::Box& box, const picture::Camera& camera);
+
 /// Extents of the corners of a box in a view, m: to the right and upwards.
 struct Extent {
   double left = 1e300, right = -1e300, below = 1e300, above = -1e300;

@@ -163,7 +163,8 @@ Frames::Frames(const Built& built, const Scene& scene, const std::filesystem::pa
     to.emplace_back(folder, name, provenance, times, file);
   };
   if (impl_->has("grains")) add(impl_->grains, "grains", io::FrameFile::vtu);
-  if (impl_->has("contacts")) add(impl_->contacts, "contacts", io::FrameFile::vtp);
+  const bool anyGrains = built.run->grains.particles.size() > 0 || !scene.insertions.empty();
+  if (anyGrains && impl_->has("contacts")) add(impl_->contacts, "contacts", io::FrameFile::vtp);
   if (impl_->has("bonds") && !built.run->grains.terms.all<dem::BondTerm>().empty())
     add(impl_->bonds, "bonds", io::FrameFile::vtp);
   if (impl_->has("solids"))
