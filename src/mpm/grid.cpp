@@ -1,6 +1,5 @@
 #include "dovetail/mpm/grid.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -8,27 +7,18 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "grid_nodes.hpp"
 
 namespace dovetail::mpm {
 
 namespace {
 
-using Index = std::array<int, 3>;
+using detail::axesOf;
+using detail::nodeOf;
 constexpr std::size_t pointChunk = 512;
 constexpr const char* axisName = "xyz";
 
-int axesOf(const GridOptions& grid) { return grid.plane ? 2 : 3; }
-
 double placeOf(const GridOptions& grid, int axis, double x) { return (x - grid.origin[axis]) / grid.spacing; }
-
-Vec3 placeOf(const GridOptions& grid, const Index& node) {
-  const Vec3 x = grid.origin + grid.spacing * Vec3{1.0 * node[0], 1.0 * node[1], 1.0 * node[2]};
-  return grid.plane ? Vec3{x.x, x.y, 0.0} : x;
-}
-
-int nodeOf(const GridOptions& grid, const GridBorder& border) {
-  return static_cast<int>(std::lround(placeOf(grid, border.axis, border.place)));
-}
 
 std::string textOf(const GridBorder& border) {
   std::string text = "border of ";
@@ -47,50 +37,25 @@ Weights weightsOf(const GridOptions& grid, const Vec3& x) {
   return weights;
 }
 
-Index firstOf(const Weights& weights) { return {weights[0].first, weights[1].first, weights[2].first}; }
+detail::Index firstOf(const Weights& weights) { return {weights[0].first, weights[1].first, weights[2].first}; }
 
-bool before(const Index& a, const Index& b) {
-  return std::lexicographical_compare(a.rbegin(), a.rend(), b.rbegin(), b.rend());
-}
-
-void sortUnique(std::vector<Index>& all) {
-  std::ranges::sort(all, before);
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-}
-
-int numberOf(const std::vector<Index>& sorted, const Index& one) {
-  return static_cast<int>(std::ranges::lower_bound(sorted, one, before) - sorted.begin());
-}
-
-/// Puts a node beyond a border in the place of its mirror image. @return components with the other sign
-std::uint8_t fold(const GridOptions& grid, Index& node) {
-  std::uint8_t flip = 0;
-  for (const GridBorder& border : grid.borders) {
-    int& i = node[static_cast<std::size_t>(border.axis)];
-    const int at = nodeOf(grid, border);
-    if (border.above ? i <= at : i >= at) continue;
-    i = 2 * at - i;
-    flip ^= static_cast<std::uint8_t>(border.kind == BorderKind::held ? 7 : 1 << border.axis);
-  }
-  return flip;
-}
-
-std::uint8_t fixedAt(const GridOptions& grid, const Index& node) {
-  std::uint8_t fixed = grid.plane ? 4 : 0;
+/// Why a point has no weights; empty if it has.
+std::string whyOutside(const GridOptions& grid, const Vec3& x) {
+  if (!isFinite(x)) return "its place is not finite";
+  for (int axis = 0; axis < axesOf(grid); ++axis)
+    if (std::abs(placeOf(grid, axis, x[axis])) > detail::mostCells)
+      return "it lies at " + formatNumber(x[axis]) + " m, too many cells from the origin of the grid";
   for (const GridBorder& border : grid.borders)
-    if (node[static_cast<std::size_t>(border.axis)] == nodeOf(grid, border))
-      fixed |= static_cast<std::uint8_t>(border.kind == BorderKind::held ? 7 : 1 << border.axis);
-  return fixed;
+    if (const double at = x[border.axis]; border.above ? at > border.place : at < border.place)
+      return "it has passed the " + textOf(border);
+  return {};
 }
 
 void requireWithin(const GridOptions& grid, std::span<const Vec3> x, const std::string& name) {
-  for (std::size_t p = 0; p < x.size(); ++p) {
-    const std::string where = "point " + std::to_string(p) + " of \"" + name + "\"";
-    if (!isFinite(x[p])) throw NumericalError("its place is not finite", where, "take a smaller step or load");
-    for (const GridBorder& border : grid.borders)
-      if (const double at = x[p][border.axis]; border.above ? at > border.place : at < border.place)
-        throw NumericalError("it has passed the " + textOf(border), where, "take a smaller step or load");
-  }
+  for (std::size_t p = 0; p < x.size(); ++p)
+    if (const std::string reason = whyOutside(grid, x[p]); !reason.empty())
+      throw NumericalError(reason, "point " + std::to_string(p) + " of \"" + name + "\"",
+                           "take a smaller step or load");
 }
 
 /// Calls visit(a, ix, iy, iz) for the nodes that a point reaches.
@@ -101,25 +66,6 @@ void eachOf(const GridOptions& grid, Visit&& visit) {
   for (int k = 0; k < layers; ++k)
     for (int j = 0; j < reach; ++j)
       for (int i = 0; i < reach; ++i) visit(a++, i, j, k);
-}
-
-void findNodes(const GridOptions& grid, const std::vector<Index>& cells, GridRows& rows) {
-  std::vector<Index> reached, nodes;
-  reached.reserve(rows.perPoint * cells.size());
-  for (const Index& first : cells)
-    eachOf(grid, [&](std::size_t, int i, int j, int k) {
-      Index node{first[0] + i, first[1] + j, first[2] + k};
-      rows.reached.push_back(placeOf(grid, node));
-      rows.flip.push_back(fold(grid, node));
-      reached.push_back(node);
-    });
-  nodes = reached;
-  sortUnique(nodes);
-  for (const Index& node : reached) rows.node.push_back(numberOf(nodes, node));
-  for (const Index& node : nodes) {
-    rows.X.push_back(placeOf(grid, node));
-    rows.fixed.push_back(fixedAt(grid, node));
-  }
 }
 
 void findWeights(const GridOptions& grid, const std::vector<Weights>& along, GridRows& rows) {
@@ -137,17 +83,6 @@ void findWeights(const GridOptions& grid, const std::vector<Weights>& along, Gri
       });
     }
   });
-}
-
-/// Places of values 0 … count − 1 in `of`, ascending: CSR.
-void sortInto(const std::vector<int>& of, std::size_t count, std::vector<int>& first, std::vector<int>& places) {
-  first.assign(count + 1, 0);
-  for (const int value : of) ++first[static_cast<std::size_t>(value) + 1];
-  for (std::size_t k = 0; k < count; ++k) first[k + 1] += first[k];
-  places.resize(of.size());
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (std::size_t k = 0; k < of.size(); ++k)
-    places[static_cast<std::size_t>(next[static_cast<std::size_t>(of[k])]++)] = static_cast<int>(k);
 }
 
 }  // namespace
@@ -186,20 +121,15 @@ GridRows rowsAt(const GridOptions& grid, std::span<const Vec3> x, const std::str
   const auto reach = static_cast<std::size_t>(reachOf(grid.shape));
   rows.perPoint = reach * reach * (grid.plane ? 1 : reach);
   std::vector<Weights> along(x.size());
+  std::vector<detail::Index> first(x.size());
   parallelFor(x.size(), pointChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) along[p] = weightsOf(grid, x[p]);
+    for (std::size_t p = begin; p < end; ++p) {
+      along[p] = weightsOf(grid, x[p]);
+      first[p] = firstOf(along[p]);
+    }
   });
-  std::vector<Index> cells;
-  for (const Weights& one : along) cells.push_back(firstOf(one));
-  sortUnique(cells);
-  rows.cell.resize(x.size());
-  parallelFor(x.size(), pointChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) rows.cell[p] = numberOf(cells, firstOf(along[p]));
-  });
-  findNodes(grid, cells, rows);
+  detail::findNodes(grid, first, name, rows);
   findWeights(grid, along, rows);
-  sortInto(rows.cell, cells.size(), rows.firstOfCell, rows.pointOfCell);
-  sortInto(rows.node, rows.nodes(), rows.firstOfNode, rows.entryOfNode);
   return rows;
 }
 

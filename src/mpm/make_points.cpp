@@ -1,3 +1,6 @@
+#include <cmath>
+#include <cstdio>
+
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "points.hpp"
@@ -5,6 +8,19 @@
 namespace dovetail::mpm {
 
 namespace {
+
+void requireEnough(const MaterialPoints& points, const PointOptions& options) {
+  const GridOptions& grid = options.grid;
+  const double perCell = pointsPerCell(grid, points.x), least = leastPerCell(grid);
+  if (perCell >= least) return;
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", perCell);
+  throw InputError(std::string("there are ") + text +
+                       " points in a cell, between which nodes move unseen: under a load it would creep for ever",
+                   options.name,
+                   "give at least " + formatNumber(least) + ", by closer points or a grid with a spacing of about " +
+                       formatNumber(grid.spacing * std::pow(least / perCell, grid.plane ? 0.5 : 1.0 / 3.0)) + " m");
+}
 
 void validate(const MaterialPoints& points, const fem::PointField* field, const PointOptions& options) {
   const std::string& name = options.name;
@@ -29,6 +45,7 @@ void validate(const MaterialPoints& points, const fem::PointField* field, const 
   if (options.transfer == Transfer::apic && secondMoment(options.grid.shape) == 0.0)
     throw InputError(std::string("apic with ") + mpm::name(options.grid.shape) + " shapes", name,
                      "take quadratic or cubic ones, or flip");
+  requireEnough(points, options);
 }
 
 }  // namespace

@@ -47,22 +47,35 @@ std::vector<Vec3> Points::places(const Nodes& nodes) const {
   return x;
 }
 
-/// F = (1 + Σ u ⊗ ∂w/∂x) F₀.
-void Points::findDeformation(std::span<const Vec3> u) {
-  const std::span<double> F = answers_.F();
-  parallelFor(rows_.points(), pointChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      double G[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-      const Vec3* const slope = &rows_.slope[rows_.perPoint * p];
-      eachReached(rows_, p, u, [&](std::size_t a, const Vec3& own) {
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j) G[3 * i + j] += own[i] * slope[a][j];
-      });
-      const double* const F0 = &F0_[9 * p];
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t J = 0; J < 3; ++J)
-          F[9 * p + 3 * i + J] = G[3 * i] * F0[J] + G[3 * i + 1] * F0[3 + J] + G[3 * i + 2] * F0[6 + J];
+namespace {
+
+/// F = (1 + Σ u ⊗ ∂w/∂x) F₀ of the points of a cell; in the plane the third row stays as it is.
+template <int axes>
+void deform(const GridRows& rows, std::size_t cell, const OfReached<Vec3>& u, const std::vector<double>& F0,
+            std::span<double> F) {
+  eachPointOf(rows, cell, [&](std::size_t p) {
+    double G[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+    const Vec3* const slope = &rows.slope[rows.perPoint * p];
+    for (std::size_t a = 0; a < rows.perPoint; ++a) addOuter<axes>(u[a], slope[a], G);
+    const double* const before = &F0[9 * p];
+    for (std::size_t J = 0; J < 3; ++J) {
+      Vec3 column;
+      addProduct<axes>(G, {before[J], before[3 + J], before[6 + J]}, column);
+      F[9 * p + J] = column.x, F[9 * p + 3 + J] = column.y;
+      F[9 * p + 6 + J] = axes == 3 ? column.z : before[6 + J];
     }
+  });
+}
+
+}  // namespace
+
+void Points::findDeformation(std::span<const Vec3> u) {
+  withAxes(options_.grid.plane, [&](auto axes) {
+    eachCell(rows_, [&](std::size_t c) {
+      OfReached<Vec3> seen;
+      look(rows_, c, u, seen);
+      deform<axes>(rows_, c, seen, F0_, answers_.F());
+    });
   });
 }
 
@@ -78,27 +91,27 @@ void Points::ask(const Nodes& nodes, const Instant& now, Wanted wanted) {
 /// f −= ∂U/∂u, Σ V₀ P F₀ᵀ ∂w/∂x.
 void Points::addAnswers(std::span<Vec3> f) const {
   const std::span<const double> P = answers_.P();
-  std::vector<double> stress(P.size());
-  parallelFor(rows_.points(), pointChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p)
-      for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) {
-          double sum = 0.0;
-          for (std::size_t J = 0; J < 3; ++J) sum += P[9 * p + 3 * i + J] * F0_[9 * p + 3 * j + J];
-          stress[9 * p + 3 * i + j] = -volume_[p] * sum;
-        }
+  withAxes(options_.grid.plane, [&](auto axes) {
+    addToNodes<Vec3>(rows_, f, [&](std::size_t p, OfReached<Vec3>& sums) {
+      const double *const own = &P[9 * p], *const F0 = &F0_[9 * p];
+      double stress[9] = {};
+      for (std::size_t J = 0; J < 3; ++J)
+        addOuter<axes>({own[J], own[3 + J], own[6 + J]}, -volume_[p] * Vec3{F0[J], F0[3 + J], F0[6 + J]}, stress);
+      const Vec3* const slope = &rows_.slope[rows_.perPoint * p];
+      for (std::size_t a = 0; a < rows_.perPoint; ++a) addProduct<axes>(stress, slope[a], sums[a]);
+    });
   });
-  addToNodes<Vec3>(
-      rows_, f,
-      [&](std::size_t p, std::size_t a) { return times(&stress[9 * p], rows_.slope[rows_.perPoint * p + a]); },
-      flipped);
 }
 
-double Points::stored() const {
-  double sum = beyond_;
-  for (std::size_t p = 0; p < volume_.size(); ++p) sum += volume_[p] * answers_.energy()[p];
-  return sum;
+double Points::volumeSum(std::span<const double> perVolume) const {
+  return parallelSum(volume_.size(), pointChunk, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t p = begin; p < end; ++p) sum += volume_[p] * perVolume[p];
+    return sum;
+  });
 }
+
+double Points::stored() const { return beyond_ + volumeSum(answers_.energy()); }
 
 void Points::addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) {
   ask(nodes, now, {.energy = !now.willCommit});
@@ -121,9 +134,7 @@ double Points::energy(const Nodes& nodes, const Instant& now) {
 double Points::commit(const Nodes& nodes, const Instant& now) {
   ask(nodes, now, {.energy = false});
   answers_.commit();
-  double sum = 0.0;
-  for (std::size_t p = 0; p < volume_.size(); ++p) sum += volume_[p] * answers_.dissipated()[p];
-  return sum;
+  return volumeSum(answers_.dissipated());
 }
 
 void Points::requireValid(const Nodes& nodes, const std::string& when, fem::Scrutiny) {

@@ -16,10 +16,10 @@ public:
 
   void addForces(const fem::Nodes&, const fem::Instant&, std::span<Vec3> f) override {
     const GridRows& rows = points_->rows();
-    detail::addToNodes<Vec3>(
-        rows, f,
-        [&](std::size_t p, std::size_t a) { return points_->masses()[p] * rows.weight[rows.perPoint * p + a] * g_; },
-        flipped);
+    detail::addToNodes<Vec3>(rows, f, [&](std::size_t p, detail::OfReached<Vec3>& sums) {
+      const Vec3 weight = points_->masses()[p] * g_;
+      for (std::size_t a = 0; a < rows.perPoint; ++a) sums[a] += rows.weight[rows.perPoint * p + a] * weight;
+    });
   }
   double energy(const fem::Nodes& nodes, const fem::Instant&) override {
     double sum = 0.0;

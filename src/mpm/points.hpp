@@ -53,6 +53,7 @@ private:
   void ask(const fem::Nodes& nodes, const fem::Instant& now, fem::Wanted wanted);
   void findDeformation(std::span<const Vec3> u);
   void addAnswers(std::span<Vec3> f) const;
+  double volumeSum(std::span<const double> perVolume) const;
   double stored() const;
   std::array<double, 81> moduli(std::size_t p) const;
   void requireSameNodes(const fem::Nodes& nodes) const;

@@ -9,23 +9,28 @@ namespace {
 
 constexpr std::size_t pointChunk = 512;
 
+/// Of nodes as the points of a cell see them.
+struct Motion {
+  OfReached<Vec3> u, v, v0;
+};
+
+Vec3 meanOf(const OfReached<Vec3>& values, const double* weight, std::size_t count) {
+  Vec3 sum;
+  for (std::size_t a = 0; a < count; ++a) sum += weight[a] * values[a];
+  return sum;
+}
+
 /// The part that turns by the arms of nodes as they are now, which keeps the angular momentum; the part that stretches
 /// by the arms that they had when the grid was laid out, with which lone points stay in bounds.
-void findMoment(const GridRows& rows, std::size_t p, std::span<const Vec3> u, std::span<const Vec3> v, const Vec3& x0,
-                const Vec3& moved, double* moment) {
+void findMoment(const GridRows& rows, std::size_t p, const Motion& nodes, const Vec3& x0, const Vec3& moved,
+                double* moment) {
   std::array<double, 9> now{}, then{};
-  const std::size_t begin = rows.perPoint * static_cast<std::size_t>(rows.cell[p]);
+  const Vec3* const reached = &rows.reached[rows.perPoint * static_cast<std::size_t>(rows.cell[p])];
+  const double* const weight = &rows.weight[rows.perPoint * p];
   for (std::size_t a = 0; a < rows.perPoint; ++a) {
-    const auto n = static_cast<std::size_t>(rows.node[begin + a]);
-    const std::uint8_t flip = rows.flip[begin + a];
-    const double weight = rows.weight[rows.perPoint * p + a];
-    const Vec3 velocity = weight * flipped(v[n], flip), arm0 = rows.reached[begin + a] - x0,
-               arm = arm0 + flipped(u[n], flip) - moved;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        now[static_cast<std::size_t>(3 * i + j)] += velocity[i] * arm[j];
-        then[static_cast<std::size_t>(3 * i + j)] += velocity[i] * arm0[j];
-      }
+    const Vec3 velocity = weight[a] * nodes.v[a], arm0 = reached[a] - x0, arm = arm0 + nodes.u[a] - moved;
+    addOuter<3>(velocity, arm, now.data());
+    addOuter<3>(velocity, arm0, then.data());
   }
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
@@ -37,21 +42,28 @@ void findMoment(const GridRows& rows, std::size_t p, std::span<const Vec3> u, st
 void leaveGrid(const GridRows& rows, std::span<const Vec3> u, std::span<const Vec3> v, std::span<const Vec3> v0,
                double keep, Carried& points) {
   const bool affine = !points.moment.empty();
-  parallelFor(rows.points(), pointChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t p = begin; p < end; ++p) {
-      const Vec3 moved = valueAt(rows, p, u), now = valueAt(rows, p, v);
-      if (affine) findMoment(rows, p, u, v, points.x[p], moved, &points.moment[9 * p]);
-      points.v[p] = affine ? now : now + keep * (points.v[p] - valueAt(rows, p, v0));
+  eachCell(rows, [&](std::size_t c) {
+    Motion nodes;
+    look(rows, c, u, nodes.u);
+    look(rows, c, v, nodes.v);
+    if (!affine) look(rows, c, v0, nodes.v0);
+    eachPointOf(rows, c, [&](std::size_t p) {
+      const auto at = [&](const OfReached<Vec3>& values) {
+        return meanOf(values, &rows.weight[rows.perPoint * p], rows.perPoint);
+      };
+      const Vec3 moved = at(nodes.u), now = at(nodes.v);
+      if (affine) findMoment(rows, p, nodes, points.x[p], moved, &points.moment[9 * p]);
+      points.v[p] = affine ? now : now + keep * (points.v[p] - at(nodes.v0));
       points.x[p] += moved;
-    }
+    });
   });
 }
 
 std::vector<double> massesOf(const GridRows& rows, const Carried& points) {
   std::vector<double> mass(rows.nodes(), 0.0);
-  addToNodes<double>(
-      rows, mass, [&](std::size_t p, std::size_t a) { return points.mass[p] * rows.weight[rows.perPoint * p + a]; },
-      [](double value, std::uint8_t) { return value; });
+  addToNodes<double>(rows, mass, [&](std::size_t p, OfReached<double>& sums) {
+    for (std::size_t a = 0; a < rows.perPoint; ++a) sums[a] += points.mass[p] * rows.weight[rows.perPoint * p + a];
+  });
   return mass;
 }
 
@@ -59,16 +71,15 @@ std::vector<Vec3> velocitiesOf(const GridRows& rows, const GridOptions& grid, co
                                std::span<const double> mass) {
   const double moment = secondMoment(grid.shape) * grid.spacing * grid.spacing;
   std::vector<Vec3> v(rows.nodes());
-  addToNodes<Vec3>(
-      rows, v,
-      [&](std::size_t p, std::size_t a) {
-        Vec3 own = points.v[p];
-        const std::size_t entry = rows.perPoint * static_cast<std::size_t>(rows.cell[p]) + a;
-        if (!points.moment.empty())
-          own += 1.0 / moment * times(&points.moment[9 * p], rows.reached[entry] - points.x[p]);
-        return points.mass[p] * rows.weight[rows.perPoint * p + a] * own;
-      },
-      flipped);
+  addToNodes<Vec3>(rows, v, [&](std::size_t p, OfReached<Vec3>& sums) {
+    const double* const weight = &rows.weight[rows.perPoint * p];
+    const Vec3* const reached = &rows.reached[rows.perPoint * static_cast<std::size_t>(rows.cell[p])];
+    for (std::size_t a = 0; a < rows.perPoint; ++a) {
+      Vec3 own = points.v[p];
+      if (!points.moment.empty()) addProduct<3>(&points.moment[9 * p], 1.0 / moment * (reached[a] - points.x[p]), own);
+      sums[a] += points.mass[p] * weight[a] * own;
+    }
+  });
   for (std::size_t n = 0; n < v.size(); ++n)
     for (int c = 0; c < 3; ++c) v[n][c] = rows.fixed[n] >> c & 1 || !(mass[n] > 0.0) ? 0.0 : v[n][c] / mass[n];
   return v;

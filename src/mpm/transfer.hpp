@@ -10,12 +10,6 @@
 
 namespace dovetail::mpm::detail {
 
-/// B x with nine numbers in rows.
-inline Vec3 times(const double* B, const Vec3& x) {
-  return {B[0] * x.x + B[1] * x.y + B[2] * x.z, B[3] * x.x + B[4] * x.y + B[5] * x.z,
-          B[6] * x.x + B[7] * x.y + B[8] * x.z};
-}
-
 /// What points carry over from one grid to the next.
 struct Carried {
   std::vector<double> mass;  ///< kg

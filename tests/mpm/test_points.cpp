@@ -17,7 +17,7 @@ namespace dovetail::mpm::test {
 namespace {
 
 PointOptions optionsOf(Shape shape, bool plane, Transfer transfer = Transfer::flip) {
-  return {.grid = {.spacing = 0.13, .shape = shape, .plane = plane}, .transfer = transfer};
+  return {.grid = {.spacing = plane ? 0.13 : 0.3, .shape = shape, .plane = plane}, .transfer = transfer};
 }
 
 /// Displacements that strain and turn, of nodes that borders let go.
@@ -90,7 +90,7 @@ TEST(MaterialPoints, ForcesAreDerivativesOfTheEnergyAndTangentsOfForces) {
   for (const bool plane : {true, false})
     for (const Shape shape : {Shape::quadratic, Shape::cubic, Shape::gimp}) {
       PointOptions options = optionsOf(shape, plane);
-      options.grid.spacing = 0.2;
+      options.grid.spacing = plane ? 0.2 : 0.4;
       options.grid.borders = {{.axis = 0, .place = 0.0, .kind = BorderKind::held}, {.axis = 1, .place = 0.0}};
       const auto solid = makePoints(scattered(60, plane, random), elastic(), options);
       fem::Model model = makeModel(solid);
@@ -127,8 +127,8 @@ TEST(MaterialPoints, ForcesAreDerivativesOfTheEnergyAndTangentsOfForces) {
 
 TEST(MaterialPoints, AreFreeOfForcesWhenTurned) {
   for (const bool plane : {true, false}) {
-    const auto solid =
-        makePoints(block({0.2, 0.3, 0.1}, {0.5, 0.5, 0.5}, 0.1, plane), elastic(), optionsOf(Shape::quadratic, plane));
+    const auto solid = makePoints(block({0.2, 0.3, 0.1}, {0.5, 0.5, 0.5}, plane ? 0.0625 : 0.125, plane), elastic(),
+                                  optionsOf(Shape::quadratic, plane));
     fem::Model model = makeModel(solid);
     // 90° in steps of 5°, renewed between them.
     for (int step = 0; step < 18; ++step) {
@@ -191,7 +191,7 @@ TEST(MaterialPoints, SettleUnderTheirWeightAsElementsDo) {
 }
 
 TEST(MaterialPoints, RefuseWhatCannotBe) {
-  const MaterialPoints good = block({}, {0.5, 0.5, 0.0}, 0.1, true);
+  const MaterialPoints good = block({}, {0.5, 0.5, 0.0}, 0.05, true);
   const auto refuses = [&](const MaterialPoints& points, const PointOptions& options) {
     EXPECT_THROW(makePoints(points, elastic(), options), InputError);
   };
@@ -212,6 +212,56 @@ TEST(MaterialPoints, RefuseWhatCannotBe) {
   fem::addMass(model);
   EXPECT_THROW(fem::ImplicitIntegrator(model, 1e-3, {.massFraction = 1.0}), InputError);
   EXPECT_THROW(makePoints(good, nullptr, options), InputError);
+}
+
+/// A block on a floor, damped for 2 s while its grid is renewed; mean of the heights that its points have lost.
+double settled(double perCell, Shape shape, double t, bool plane = true) {
+  const double distance = 0.0625, spacing = perCell * distance;
+  const MaterialPoints at = block({}, {0.375, 0.75, 0.375}, distance, plane);
+  const auto points = makePoints(
+      at, elastic(5e4),
+      {.grid =
+           {.spacing = spacing, .shape = shape, .plane = plane, .borders = {{.axis = 1}}, .gimpHalf = 0.5 / perCell},
+       .renewal = 0.1});
+  fem::Model model = makeModel(points);
+  model.add(gravity(points, {0.0, -9.81, 0.0}));
+  model.add(fem::massDamping(15.0));
+  fem::addMass(model);
+  fem::ExplicitIntegrator run(model, 0.7 * fem::stableStep(model).dt, {.energyEvery = 0});
+  run.runUntil(t);
+  double sum = 0.0;
+  for (std::size_t p = 0; p < at.x.size(); ++p) sum += at.x[p].y - points->places(model.nodes)[p].y;
+  return sum / static_cast<double>(at.x.size());
+}
+
+TEST(MaterialPoints, StandStillWhereThereAreEnoughInACell) {
+  for (const Shape shape : {Shape::quadratic, Shape::cubic, Shape::gimp})
+    for (const double perCell : {1.5, 2.0, 3.0})
+      EXPECT_NEAR(settled(perCell, shape, 2.0) / settled(perCell, shape, 1.6), 1.0, 1e-3) << name(shape) << perCell;
+}
+
+TEST(MaterialPoints, AreCountedInCells) {
+  const auto count = [](double spacing, bool plane, const Vec3& origin, std::vector<GridBorder> borders = {}) {
+    const GridOptions grid{.spacing = spacing, .plane = plane, .origin = origin, .borders = std::move(borders)};
+    return pointsPerCell(grid, block({}, {1.0, 1.0, 1.0}, 0.125, plane).x);
+  };
+  EXPECT_DOUBLE_EQ(count(0.125, true, {}), 1.0);
+  EXPECT_DOUBLE_EQ(count(0.125, true, {0.03, 0.04, 0.0}), 1.0);
+  EXPECT_DOUBLE_EQ(count(0.25, true, {0.07, -0.04, 0.0}), 4.0);
+  EXPECT_DOUBLE_EQ(count(0.25, false, {0.07, -0.04, 0.11}), 8.0);
+  EXPECT_DOUBLE_EQ(count(0.5, true, {}, {{.axis = 0}, {.axis = 1, .above = true, .place = 1.0}}), 16.0);
+  EXPECT_DOUBLE_EQ(count(4.0, true, {}), 64.0);
+  for (const double perCell : {1.0, 1.2}) {
+    try {
+      settled(perCell, Shape::quadratic, 2.0);
+      FAIL() << perCell;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("points in a cell"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("a grid with a spacing of about 0.08"), std::string::npos)
+          << error.what();
+    }
+  }
+  EXPECT_THROW(settled(1.0, Shape::quadratic, 2.0, false), InputError);
 }
 
 }  // namespace

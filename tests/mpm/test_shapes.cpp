@@ -84,6 +84,25 @@ TEST(Grids, ReproduceFieldsUpToTheirBorders) {
     }
 }
 
+TEST(Grids, FindNodesOfPointsFarFromEachOtherAndRefuseTooFar) {
+  const GridOptions grid{.spacing = 0.5, .plane = false};
+  std::vector<Vec3> x{{1e5, -2e4, 3e3}, {-1e5, 0.1, 0.2}, {1e5, -2e4, 3e3}};
+  const GridRows rows = rowsAt(grid, x, "points");
+  EXPECT_EQ(rows.cells(), 2U);
+  EXPECT_EQ(rows.nodes(), 54U);
+  EXPECT_EQ(rows.cell, (std::vector<int>{1, 0, 1}));
+  for (std::size_t p = 0; p < x.size(); ++p) EXPECT_LE(norm(valueAt(rows, p, rows.X) - x[p]), 1e-11 * norm(x[p]));
+  for (const double far : {1e6, 1e12, 1e300}) {
+    x[1].x = -far;
+    try {
+      rowsAt(grid, x, "points");
+      FAIL() << far;
+    } catch (const NumericalError& error) {
+      EXPECT_NE(std::string(error.what()).find(far < 1e9 ? "points 1 and 2" : "point 1"), std::string::npos);
+    }
+  }
+}
+
 TEST(Grids, RefuseBordersThatCannotBe) {
   const auto refusal = [](const GridOptions& grid) {
     try {

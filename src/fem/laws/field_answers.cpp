@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 
 namespace dovetail::fem {
 
@@ -62,7 +63,7 @@ void FieldAnswers::findEnergies() {
 }
 
 void FieldAnswers::ask(std::span<const Vec3> u, const Instant& now, const Wanted& wanted, const std::string& name) {
-  std::ranges::fill(reason_, std::string{});
+  for (std::string& reason : reason_) reason.clear();
   if (committed_ && knows(u, now, {.tangent = wanted.tangent, .energy = false, .toRead = wanted.toRead})) {
     findEnergies();
     return requireAnswers(name);
@@ -81,6 +82,13 @@ void FieldAnswers::ask(std::span<const Vec3> u, const Instant& now, const Wanted
 }
 
 void FieldAnswers::requireAnswers(const std::string& name) const {
+  const double bad = parallelSum(places_.size(), 512, [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;  // 0 · value is NaN if the value is not finite
+    for (std::size_t p = begin; p < end; ++p) sum += (reason_[p].empty() ? 0.0 : 1.0) + 0.0 * energy_[p];
+    for (std::size_t k = 9 * begin; k < 9 * end; ++k) sum += 0.0 * P_[k];
+    return sum;
+  });
+  if (bad == 0.0) return;
   const auto finite = [](std::span<const double> values) {
     return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
   };

@@ -62,6 +62,12 @@ struct GridRows {
 /// @throws NumericalError naming a point that is not finite or lies beyond a border
 GridRows rowsAt(const GridOptions& grid, std::span<const Vec3> x, const std::string& name);
 
+/// Points in a cell of the grid: the mean of the cells whose neighbours along the axes hold points too or lie beyond a
+/// border, of all that hold points where there are none such. Below `leastPerCell` nodes move points without a strain
+/// that any point sees, and a body that is renewed sinks for ever under its weight.
+double pointsPerCell(const GridOptions& grid, std::span<const Vec3> x);
+inline double leastPerCell(const GridOptions& grid) { return grid.plane ? 2.0 : 3.0; }
+
 /// v with the components of `flip` turned round.
 inline Vec3 flipped(const Vec3& v, std::uint8_t flip) {
   return {flip & 1 ? -v.x : v.x, flip & 2 ? -v.y : v.y, flip & 4 ? -v.z : v.z};

@@ -56,7 +56,8 @@ public:
 };
 
 /// @throws InputError for no points, volumes that are not positive, numbers that differ, no field, options out of
-/// range, `apic` with other shapes than B-splines; NumericalError for points beyond a border
+/// range, `apic` with other shapes than B-splines, fewer points in a cell than leastPerCell(); NumericalError for
+/// points beyond a border
 std::shared_ptr<PointSolid> makePoints(const MaterialPoints& points, std::shared_ptr<fem::PointField> field,
                                        const PointOptions& options);
 
