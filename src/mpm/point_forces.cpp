@@ -47,6 +47,13 @@ std::vector<Vec3> Points::places(const Nodes& nodes) const {
   return x;
 }
 
+std::size_t Points::memory() const {
+  const auto bytes = [](const auto&... all) { return ((all.capacity() * sizeof(all[0])) + ...); };
+  return answers_.memory() + bytes(carried_.x, carried_.v, carried_.moment, carried_.mass, volume_, F0_, v0_) +
+         bytes(rows_.cell, rows_.node, rows_.flip, rows_.reached, rows_.weight, rows_.slope, rows_.firstOfCell,
+               rows_.pointOfCell, rows_.firstOfNode, rows_.entryOfNode, rows_.X, rows_.fixed);
+}
+
 namespace {
 
 /// F = (1 + Σ u ⊗ ∂w/∂x) F₀ of the points of a cell; in the plane the third row stays as it is.

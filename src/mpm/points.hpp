@@ -27,6 +27,7 @@ public:
   const fem::FieldAnswers& answers() const override { return answers_; }
   double beyondNodes() const override { return beyond_; }
   std::int64_t renewals() const override { return renewals_; }
+  std::size_t memory() const override;
 
   void addForces(const fem::Nodes& nodes, const fem::Instant& now, std::span<Vec3> f) override;
   double addForcesAndEnergy(const fem::Nodes& nodes, const fem::Instant& now, std::span<Vec3> f) override;

@@ -10,6 +10,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/laws/field_history.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
 #include "law_of_field.hpp"
 
@@ -25,6 +26,7 @@ public:
   explicit LawField(std::shared_ptr<const PointMaterial> law) : law_(std::move(law)), size_(law_->historySize()) {}
 
   const PointMaterial& law() const { return *law_; }
+  std::span<const double> history() const { return std::span(history_).first(points_ * size_); }
   std::string name() const override { return law_->name(); }
   double density() const override { return law_->density(); }
   bool isSymmetric() const override { return law_->isSymmetric(); }
@@ -207,6 +209,11 @@ private:
 const PointMaterial* lawOf(const PointField& field) {
   const auto* const made = dynamic_cast<const LawField*>(&field);
   return made ? &made->law() : nullptr;
+}
+
+std::span<const double> historyOf(const PointField& field) {
+  const auto* const made = dynamic_cast<const LawField*>(&field);
+  return made ? made->history() : std::span<const double>{};
 }
 
 std::shared_ptr<PointField> pointField(std::shared_ptr<const PointMaterial> law) {

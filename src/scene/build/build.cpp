@@ -26,8 +26,11 @@ void setLaws(dem::Model& grains, const Scene& scene) {
     grains.laws = makeLaws(scene);
     return;
   }
-  if (!scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty())
-    throw InputError("grains have no contact law", scene.steps.where, "give the scene a key \"contact\"");
+  const bool points = std::ranges::any_of(
+      scene.couplings, [](const Coupling& one) { return std::holds_alternative<PointSpheres>(one.kind); });
+  if (!scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty() || points)
+    throw InputError(std::string(points ? "material points" : "grains") + " have no contact law", scene.steps.where,
+                     "give the scene a key \"contact\"");
   grains.laws = dem::makeContactLaws(dem::ElasticLaw{{.stiffness = 1.0}});  // of a scene without grains
 }
 

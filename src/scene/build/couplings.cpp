@@ -7,6 +7,7 @@
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/mpm/point_contact.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "parts.hpp"
 #include "warnings/warnings.hpp"
@@ -199,6 +200,27 @@ void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overla
   grains.terms.add(arlequin::makeArlequinCoupling(grains, mesh, weight, side, options));
 }
 
+void add(Built& built, std::size_t number, const Coupling& coupling, const PointSpheres& spheres, const Scene& scene) {
+  coupling::SolidSide& side = built.run->solid(number);
+  const auto& [filling, grid] = std::get<PointMesh>(scene.solids[number].mesh);
+  const auto same = [&](const Coupling& one) { return one.solid == coupling.solid; };
+  if (std::ranges::count_if(scene.couplings, same) > 1)
+    throw InputError("the points of \"" + coupling.solid + "\" have two couplings", "", "leave one of them out");
+  for (const auto& term : side.model->terms)
+    if (const auto body = std::dynamic_pointer_cast<const mpm::PointSolid>(term))
+      mpm::addSpheres(built.run->grains, side, body,
+                      {.radius = spheres.radius.value_or(0.5 * grid.spacing / filling.perAxis),
+                       .material = contactRow(scene, spheres.contactMaterial)});
+}
+
+/// Points have no faces, and meshes no points.
+void requireFit(const Coupling& coupling, const Solid& solid) {
+  const bool points = std::holds_alternative<PointSpheres>(coupling.kind);
+  if (points == isOfPoints(solid)) return;
+  throw InputError(points ? "\"" + solid.name + "\" has a mesh" : "\"" + solid.name + "\" is made of material points",
+                   "", points ? "write \"type\": \"surface\", or \"overlap\"" : "write \"type\": \"points\"");
+}
+
 }  // namespace
 
 std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh) {
@@ -217,6 +239,7 @@ void addCouplings(Built& built, const Scene& scene) {
   for (const Coupling& coupling : scene.couplings)
     atPlace(coupling.where, [&] {
       const std::size_t solid = solidNamed(coupling.solid, *built.run);
+      requireFit(coupling, scene.solids[solid]);
       std::visit([&](const auto& kind) { add(built, solid, coupling, kind, scene); }, coupling.kind);
     });
 }

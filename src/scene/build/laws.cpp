@@ -223,6 +223,8 @@ Meeting meetingIn(const Scene& scene) {
   for (const Coupling& one : scene.couplings)
     if (const auto* const surface = std::get_if<SurfaceContact>(&one.kind); surface && !surface->contact)
       found.all.insert(surface->contactMaterial);
+    else if (const auto* const points = std::get_if<PointSpheres>(&one.kind))
+      found.grains.insert(points->contactMaterial), found.all.insert(points->contactMaterial);
   return found;
 }
 

@@ -20,6 +20,9 @@ class PointField;
 struct SolidOptions;
 class PointMaterial;
 }  // namespace dovetail::fem
+namespace dovetail::mpm {
+class PointSolid;
+}  // namespace dovetail::mpm
 
 namespace dovetail::scene {
 
@@ -35,7 +38,7 @@ auto atPlace(const std::string& where, Act act) {
 
 /// What things take in a run at least, bytes: measured with `dovetail check` on scenes of a million.
 struct BytesPer {
-  static constexpr double grain = 500.0, cell = 1000.0;
+  static constexpr double grain = 500.0, cell = 1000.0, point = 1000.0;
 };
 /// Before memory is taken. @throws InputError if so many spheres or cells cannot be meant, or do not fit the memory
 /// that is free
@@ -87,12 +90,22 @@ void setContactMaterial(dem::Particles& particles, std::size_t first, int row);
 /// @throws InputError if no VolumeMesher is there, or the surface cannot be filled
 fem::SolidMesh meshOf(const TetrahedraMesh& from, std::vector<std::string>& notes);
 
+/// Those that are not spheres at material points.
+std::size_t countOfGrains(const dem::Particles& particles);
+
 /// Whether a stage takes load steps.
 bool hasStatics(const Scene& scene);
 /// Puts supports, loads, ties and planes on a solid.
 void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene, Built& built);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
+
+bool isOfPoints(const Solid& solid);
+/// Their model, with gravity. In the place of their mesh is one without elements, whose nodes are the points as they
+/// start. @throws InputError for what has no meaning without elements, and points beyond a border
+std::unique_ptr<fem::Model> makePoints(const Solid& solid, const Scene& scene, Built& built);
+/// Null for solids with a mesh.
+const mpm::PointSolid* materialPoints(const fem::Model& model);
 
 /// Null for cells of grains, which are a field (fieldOf).
 std::shared_ptr<const fem::PointMaterial> makeMaterial(const SolidMaterial& material);

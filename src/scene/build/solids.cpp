@@ -154,6 +154,19 @@ bool hasGrains(const Scene& scene) {
   return !scene.particles.empty() || !scene.clumps.empty() || !scene.insertions.empty();
 }
 
+void addPoints(Built& built, const Solid& solid, const Scene& scene) {
+  coupling::SolidOptions options{.name = solid.name};
+  options.stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps;
+  options.implicitOptions.linear.method = static_cast<linalg::LinearMethod>(solid.linearSolver);
+  built.run->addSolid(makePoints(solid, scene, built), options);
+}
+
+void requireSolver(const Solid& solid, const Scene& scene) {
+  if (solid.linearSolver != 0 && !solid.implicitSteps && !hasStatics(scene))
+    throw InputError("explicit steps solve no linear systems", "linear_solver",
+                     "leave it out, or give \"stepping\": \"implicit\"");
+}
+
 void add(Built& built, const Solid& solid, const Scene& scene) {
   io::requirePlainName(solid.name, "name");
   if (solid.name.size() > 100)
@@ -164,6 +177,8 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   if (!meetsGrains && hasGrains(scene))
     built.notes.push_back("WARNING: \"" + solid.name +
                           "\" has no coupling, so that grains pass through it: give it one, or leave it out.");
+  requireSolver(solid, scene);
+  if (isOfPoints(solid)) return addPoints(built, solid, scene);
   const Overlap* const overlap = overlapWith(solid, scene);
   const bool anyCells = std::ranges::any_of(materialsOf(solid), [](const auto* one) { return hasCells(*one); });
   if (overlap && anyCells)
@@ -184,9 +199,6 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   else
     for (Vec3& v : model->nodes.v) v = solid.velocity;
   addBoundaries(*model, mesh, solid, scene, built);
-  if (solid.linearSolver != 0 && !solid.implicitSteps && !hasStatics(scene))
-    throw InputError("explicit steps solve no linear systems", "linear_solver",
-                     "leave it out, or give \"stepping\": \"implicit\"");
   const double fraction = solid.massFraction.value_or(solid.implicitSteps ? 1.0 : 0.0);
   coupling::SolidOptions options{.name = solid.name};
   options.implicitOptions.linear.method = static_cast<linalg::LinearMethod>(solid.linearSolver);

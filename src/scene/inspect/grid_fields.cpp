@@ -95,6 +95,10 @@ void writeGridFields(const std::filesystem::path& folder, const GridOptions& set
                      settings.file.string(), std::string("give a name that ends in ") + ending);
   io::requireFreeOrOurs(settings.file);
   const Scene scene = readRun(folder);
+  for (const Coupling& coupling : scene.couplings)
+    if (std::holds_alternative<PointSpheres>(coupling.kind))
+      throw InputError("fields are those of grains, and the spheres of \"" + coupling.solid + "\" are none",
+                       folder.string(), "look at the frames of the solid");
   const std::string identity = identityOf(scene);
   Built built = build(scene);
   start(built, scene);

@@ -211,7 +211,7 @@ void describe(Fields& f, StateOfSolid& v) {
          v.file);
 }
 void describe(Fields& f, Solid& v) {
-  static constexpr const char* meshes[] = {"box", "file", "tetrahedra"};
+  static constexpr const char* meshes[] = {"box", "file", "tetrahedra", "points"};
   static constexpr const char* formulations[] = {"standard", "mean-dilatation", "enhanced", "assumed-stress",
                                                  "reduced"};
   static constexpr const char* steppings[] = {"explicit", "implicit"};
@@ -219,9 +219,10 @@ void describe(Fields& f, Solid& v) {
   f.where(v.where);
   f.text({"name", "for couplings, reports and files: letters, digits, '_', '-' and '.', with a letter first"}, v.name,
          true);
-  f.oneOf(
-      {"mesh", "a box of cells, one from a file, or tet4 in a closed surface where the build has CGAL in the program"},
-      v.mesh, meshes);
+  f.oneOf({"mesh",
+           "a box of cells, one from a file, tet4 in a closed surface where the build has CGAL in the program, or "
+           "material points on a grid that is renewed as they travel"},
+          v.mesh, meshes);
   f.object({"material", "of the solid"}, v.material);
   f.list({"regions", "elements of other materials"}, v.regions);
   f.word({"formulation", "of the elements"}, v.formulation, formulations);
@@ -326,9 +327,12 @@ void describe(Fields& f, Overlap& v) {
          v.initialEquilibrium);
 }
 void describe(Fields& f, Coupling& v) {
-  static constexpr const char* kinds[] = {"surface", "overlap"};
+  static constexpr const char* kinds[] = {"surface", "overlap", "points"};
   f.where(v.where);
-  f.oneOf({"type", "contacts on the surface of a solid, or an overlap with it"}, v.kind, kinds);
+  f.oneOf({"type",
+           "contacts on the surface of a solid, an overlap with it, or contacts of its material points with grains, "
+           "walls and points of other solids"},
+          v.kind, kinds);
   f.text({"solid", "name of the solid"}, v.solid, true);
 }
 

@@ -12,8 +12,10 @@ void describe(Fields& f, GrainProbe& v) {
 }
 void describe(Fields& f, NodeProbe& v) {
   solid(f, v.solid);
-  f.vector({"at", "position; the probe follows the node nearest to it at the start"}, v.at, unit::length);
+  f.vector({"at", "position; the probe follows the node, or material point, nearest to it at the start"}, v.at,
+           unit::length);
 }
+void describe(Fields& f, BodyProbe& v) { solid(f, v.solid); }
 void describe(Fields& f, WallProbe& v) {
   f.nameOrNumber({"wall", "its name, or which item of \"walls\", counted from 0"}, v.wall);
 }
@@ -35,11 +37,13 @@ void describe(Fields& f, CellsProbe& v) {
 }
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {
-  static constexpr const char* kinds[] = {"grain", "node", "wall", "solid", "drive", "support", "region", "cells"};
+  static constexpr const char* kinds[] = {"grain", "node",    "body",   "wall", "solid",
+                                          "drive", "support", "region", "cells"};
   f.where(v.where);
   f.text({"name", "of its columns: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);
   f.oneOf({"of",
-           "position and velocity of a grain, displacement of a node, force and moment of the grains on a wall and its "
+           "position and velocity of a grain, displacement of a node, centre of mass, velocity and extent of a solid, "
+           "force and moment of the grains on a wall and its "
            "displacement, force and moment of the grains on a solid, force and moment of a drive on its grains or of a "
            "support on its solid, number and mean velocity of the grains in a region, or pressure, stress ratio, void "
            "ratio, contacts per grain and fraction of sliding contacts of the cells of a solid"},

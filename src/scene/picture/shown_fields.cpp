@@ -138,6 +138,12 @@ void ShownFields::addSolid(picture::Drawing& drawing, const io::FrameContent& fr
   std::vector<float> value;
   for (const double v : ofSolid(frame)) value.push_back(solids_.place(v));
   const auto paint = value.empty() ? std::uint8_t{plainSolid} : std::uint8_t{ofSolids};
+  if (const std::vector<double> radius = valuesAt(frame, "radius", false); !radius.empty()) {
+    for (std::size_t k = 0; k < place.size(); ++k)
+      if (!cut || cut->height(place[k]) <= 0.0)
+        drawing.balls.push_back({place[k], radius[k], value.empty() ? 0.0F : value[k], paint});
+    return;
+  }
   for (const picture::Triangle& triangle : surfaceOf(frame, place, value, paint, cut))
     drawing.triangles.push_back(triangle);
 }

@@ -59,8 +59,8 @@ std::vector<MeshField> cellsAt(const Points& points) {
   std::size_t number = 0;
   forEachPoint(points, [&](const Points::Part& part, std::size_t p) {
     const std::size_t at = number++;
-    if (!part.solid->field()) return;
-    hierarchical::visitCell(*part.solid->field(), p, [&](const rve::Rve& cell) {
+    if (!part.field) return;
+    hierarchical::visitCell(*part.field, p, [&](const rve::Rve& cell) {
       const CellMeasures now = measured(cell);
       fields[0].values[at] = now.voidRatio;
       fields[1].values[at] = now.coordination;
@@ -79,8 +79,8 @@ std::vector<CellPoint> cellPoints(const fem::Model& model) {
     const fem::Solid::Sample& sample = part.sample;
     point = sample.element[p] == last ? point + 1 : 0;
     last = sample.element[p];
-    if (part.solid->field() && hierarchical::visitCell(*part.solid->field(), p, [](const rve::Rve&) {}))
-      cells.push_back({part.solid->field(), p, last, point, sample.X[p], sample.volume[p]});
+    if (part.field && hierarchical::visitCell(*part.field, p, [](const rve::Rve&) {}))
+      cells.push_back({part.field, p, last, point, sample.X[p], sample.volume[p]});
   });
   return cells;
 }

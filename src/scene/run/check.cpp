@@ -1,12 +1,16 @@
 // All of a scene short of running it.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 #include "build/parts.hpp"
 #include "cell_fields.hpp"
+#include "dovetail/core/finite.hpp"
 #include "dovetail/core/memory.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/mpm/point_solid.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "output_cost.hpp"
 #include "plan.hpp"
@@ -30,13 +34,30 @@ void reportWarnings(const Built& built, const Scene& scene, bool starts, std::os
   for (const std::string& warning : lines) log << "WARNING: " << warning << '\n';
 }
 
+/// A point reaches the nodes around the cell that it is in: points of one cell reach the same ones.
+std::string pointsTold(const mpm::PointSolid& body) {
+  const mpm::GridRows& rows = body.rows();
+  int fewest = std::numeric_limits<int>::max(), most = 0;
+  for (std::size_t c = 0; c < rows.cells(); ++c) {
+    const int own = rows.firstOfCell[c + 1] - rows.firstOfCell[c];
+    fewest = std::min(fewest, own), most = std::max(most, own);
+  }
+  return std::to_string(rows.points()) + " points on " + std::to_string(rows.nodes()) + " nodes of a grid, " +
+         std::to_string(fewest) + (most > fewest ? " to " + std::to_string(most) : "") + " a cell, " +
+         formatNumber(std::round(10.0 * static_cast<double>(body.memory()) / 1048576.0) / 10.0) + " MiB";
+}
+
 void reportParts(Built& built, const Scene& scene, std::ostream& log) {
   const coupling::CoupledRun& run = *built.run;
   reportWarnings(built, scene, true, log);
-  log << run.grains.particles.size() << " particles, contacts: " << run.grains.laws->name() << '\n';
-  for (std::size_t s = 0; s < run.solids(); ++s)
-    log << "solid \"" << run.solid(s).name << "\": " << built.meshes[s].X.size() << " nodes, "
-        << built.meshes[s].elementCount() << " elements\n";
+  log << countOfGrains(run.grains.particles) << " particles, contacts: " << run.grains.laws->name() << '\n';
+  for (std::size_t s = 0; s < run.solids(); ++s) {
+    log << "solid \"" << run.solid(s).name << "\": ";
+    if (const auto* const body = materialPoints(*run.solid(s).model))
+      log << pointsTold(*body) << '\n';
+    else
+      log << built.meshes[s].X.size() << " nodes, " << built.meshes[s].elementCount() << " elements\n";
+  }
   for (const std::string& line : linesOnCells(built)) log << line << '\n';
   log << "step " << run.dt() << " s\n";
   for (const StepLimit& limit : limits(built, scene))

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "build/parts.hpp"
 #include "cell_fields.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/sample.hpp"
@@ -64,8 +65,22 @@ void add(std::vector<MeshField>& fields, MeshField field) {
 
 }  // namespace
 
+namespace {
+
+std::vector<MeshField> bodyFields(const mpm::PointSolid& body, const fem::Model& model, const Solid& solid,
+                                  const std::vector<std::string>& contents) {
+  std::vector<MeshField> fields{{"displacement", flat(displacementsOf(body, model.nodes)), 3, false},
+                                {"velocity", flat(velocitiesOf(body, model.nodes)), 3, false},
+                                {"radius", radiiOf(body, std::get<PointMesh>(solid.mesh)), 1, false}};
+  eachField(pointsOf(model), solid, contents, [&](MeshField field, Volumes) { add(fields, std::move(field)); });
+  return fields;
+}
+
+}  // namespace
+
 std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const Solid& solid,
                                    const std::vector<std::string>& contents) {
+  if (const auto* const body = materialPoints(model)) return bodyFields(*body, model, solid, contents);
   std::vector<MeshField> fields{{"displacement", flat(model.nodes.u), 3, false},
                                 {"velocity", flat(model.nodes.v), 3, false}};
   const bool asksPoints = std::ranges::any_of(std::array{"stress", "strain", "cells", "history"},
@@ -102,14 +117,33 @@ std::vector<std::string> notesOnSetNames(const Built& built, const Scene& scene)
   return notes;
 }
 
+dem::Particles grainsAlone(const dem::Particles& particles) {
+  dem::Particles own;
+  const auto take = [&](auto& to, const auto& from) {
+    for (std::size_t i = 0; i < from.size(); ++i)
+      if (!particles.isOfSolid(i)) to.push_back(from[i]);
+  };
+  take(own.id, particles.id);
+  take(own.x, particles.x);
+  take(own.v, particles.v);
+  take(own.f, particles.f);
+  take(own.radius, particles.radius);
+  take(own.omega, particles.omega);
+  take(own.weight, particles.weight);
+  return own;
+}
+
 ForceLines contactLines(const dem::Model& grains) {
   const dem::ContactSample sample = dem::sampleContacts(grains);
-  const std::vector<std::int64_t>& id = grains.particles.id;
+  const auto idOf = [&](int i) -> std::int64_t {
+    const auto number = static_cast<std::size_t>(i);
+    return i < 0 || grains.particles.isOfSolid(number) ? -1 : grains.particles.id[number];
+  };
   ForceLines lines;
   for (std::size_t c = 0; c < sample.size(); ++c) {
     addLine(lines, sample.from[c], sample.to[c], sample.normal[c], sample.force[c]);
-    lines.first.push_back(id[static_cast<std::size_t>(sample.first[c])]);
-    lines.second.push_back(sample.second[c] < 0 ? -1 : id[static_cast<std::size_t>(sample.second[c])]);
+    lines.first.push_back(idOf(sample.first[c]));
+    lines.second.push_back(idOf(sample.second[c]));
   }
   return lines;
 }

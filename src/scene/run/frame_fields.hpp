@@ -17,7 +17,8 @@ namespace dovetail::scene {
 std::vector<double> fractionOf(const fem::Model& model);
 
 /// What frames of a solid show, by the words of `output.contents`: displacement (m), velocity (m/s), weights, and of
-/// stress, strain, cells and history means over the points of each element.
+/// stress, strain, cells and history means over the points of each element. Of material points, all at the points, with
+/// "radius" (m).
 std::vector<MeshField> solidFields(const fem::Model& model, std::size_t elements, const Solid& solid,
                                    const std::vector<std::string>& contents);
 
@@ -26,6 +27,9 @@ std::vector<MeshField> pointFields(const Points& points, const Solid& solid, con
 
 /// Of a started run whose frames show solids: what says that a set has another name in them, as a field has its own.
 std::vector<std::string> notesOnSetNames(const Built& built, const Scene& scene);
+
+/// Grains among the particles of a started run, as frames show them: without spheres at material points.
+dem::Particles grainsAlone(const dem::Particles& particles);
 
 /// Contacts or bonds, as lines from the centre of the first grain to that of the second, or to the contact point on a
 /// wall.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "build/parts.hpp"
 #include "cell_fields.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
@@ -98,6 +99,11 @@ void Frames::Impl::addSolid(std::size_t s, const Built& built, double time) {
   const fem::Model& model = *built.run->solid(s).model;
   const fem::SolidMesh& mesh = built.meshes[s];
   const std::vector<MeshField> values = solidFields(model, mesh.elementCount(), files[s], contents);
+  if (isOfPoints(files[s])) {
+    io::PointFrame frame{.points = mesh.X, .fields = {}, .integers = {}};
+    for (const MeshField& field : values) frame.fields.push_back({field.name, field.values, field.components});
+    return solids[s].write(time, frame);
+  }
   solid_io::VtuFields fields{.time = time};
   for (const MeshField& field : values)
     (field.perCell ? fields.perCell : fields.perPoint).push_back({field.name, field.values, field.components});
@@ -114,11 +120,13 @@ void Frames::Impl::addPoints(std::size_t s, const Built& built, double time) {
     X.push_back(part.sample.X[p]);
     element.push_back(part.sample.element[p]);
   });
-  if (to.place.empty()) {
+  std::vector<Vec3> u;
+  if (const auto* const body = materialPoints(model))
+    u = displacementsOf(*body, model.nodes);
+  else if (to.place.empty()) {
     const fem::ElementLocator locator(built.meshes[s]);
     for (const Vec3& at : X) to.place.emplace_back(built.meshes[s], locator, at);
   }
-  std::vector<Vec3> u;
   for (const fem::MaterialPoint& place : to.place) u.push_back(place.valueOf(model.nodes.u));
   const std::vector<MeshField> values = pointFields(now, files[s], contents);
   io::PointFrame frame{
@@ -196,7 +204,7 @@ void Frames::add(const Built& built, SameInstant before) {
   const double last = impl_->times.empty() ? -1.0 : impl_->times.back();
   const double time = built.run->time() > last ? built.run->time() : last + 1e-12 * std::max(1.0, last);
   const dem::Model& grains = built.run->grains;
-  if (!impl_->grains.empty()) impl_->addGrains(grains.particles, time);
+  if (!impl_->grains.empty()) impl_->addGrains(grainsAlone(grains.particles), time);
   if (!impl_->contacts.empty()) addLines(impl_->contacts[0], time, contactLines(grains));
   if (!impl_->bonds.empty()) addLines(impl_->bonds[0], time, bondLines(grains));
   for (std::size_t s = 0; s < impl_->solids.size(); ++s) impl_->addSolid(s, built, time);

@@ -88,9 +88,11 @@ double bytesOfSolids(const Built& built, const std::vector<std::string>& content
   if (!has("solids")) return bytes;
   // Packed by zlib, which makes little of shapes that repeat and values that are smooth.
   constexpr double packed = 0.75;
-  for (const fem::SolidMesh& mesh : built.meshes)
-    bytes += packed *
-             (2.0 * vector * static_cast<double>(mesh.X.size()) + values * static_cast<double>(mesh.elementCount()));
+  for (const fem::SolidMesh& mesh : built.meshes) {
+    const auto nodes = static_cast<double>(mesh.X.size());
+    bytes += mesh.groups.empty() ? (3.0 * vector + number + cell + values) * nodes  // material points
+                                 : packed * (2.0 * vector * nodes + values * static_cast<double>(mesh.elementCount()));
+  }
   return bytes;
 }
 
@@ -102,7 +104,7 @@ struct Frames {
 
 Frames framesOf(const Built& built, const Scene& scene, const Plan& plan) {
   const dem::Model& grains = built.run->grains;
-  auto count = static_cast<double>(grains.particles.size());
+  auto count = static_cast<double>(countOfGrains(grains.particles));
   for (const Insertion& one : scene.insertions) count += 0.5 * expectedIn(one, timeOf(scene));
   constexpr double head = 2000.0;
   // A stage in which no time passes replaces the frame before.
@@ -155,7 +157,7 @@ void lookAtContents(const Built& built, const Scene& scene, Lines& lines) {
     bool isThere;
   };
   const dem::Model& grains = built.run->grains;
-  const bool anyGrains = grains.particles.size() > 0 || !scene.insertions.empty();
+  const bool anyGrains = countOfGrains(grains.particles) > 0 || !scene.insertions.empty();
   const auto isOverlap = [](const Coupling& one) { return std::holds_alternative<Overlap>(one.kind); };
   const auto flows = [](const Solid& one) {
     return std::ranges::any_of(materialsOf(one), [](const SolidMaterial* material) { return yields(*material); });

@@ -8,8 +8,10 @@
 #include <span>
 
 #include "build/parts.hpp"
+#include "dovetail/fem/laws/field_history.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/viscosity.hpp"
+#include "dovetail/mpm/point_solid.hpp"
 
 namespace dovetail::scene {
 
@@ -35,12 +37,57 @@ void remember(MeshField& to, std::size_t number, std::span<const double> values)
 
 }  // namespace
 
+namespace {
+
+/// Without asking the law again: that would be from another state than the next step's.
+fem::Solid::Sample sampleOf(const fem::FieldAnswers& answers) {
+  const auto copy = [](std::span<const double> values) { return std::vector<double>(values.begin(), values.end()); };
+  fem::Solid::Sample sample;
+  for (const fem::PointPlace& place : answers.places()) {
+    sample.element.push_back(place.element);
+    sample.X.push_back(place.X);
+    sample.volume.push_back(place.volume);
+  }
+  sample.F = copy(answers.F());
+  sample.P = copy(answers.P());
+  sample.energy = copy(answers.energy());
+  sample.history = copy(fem::historyOf(answers.field()));
+  return sample;
+}
+
+}  // namespace
+
 Points pointsOf(const fem::Model& model) {
   Points points;
   for (const auto& term : model.terms)
     if (auto* const solid = dynamic_cast<fem::Solid*>(term.get()))
-      points.parts.push_back({solid, solid->sample(model.nodes, {.t = model.t})});
+      points.parts.push_back({solid->name(), solid->field(), solid->sample(model.nodes, {.t = model.t})});
+    else if (const auto* const body = dynamic_cast<const mpm::PointSolid*>(term.get()))
+      points.parts.push_back({body->name(), &body->answers().field(), sampleOf(body->answers())});
   return points;
+}
+
+std::vector<Vec3> displacementsOf(const mpm::PointSolid& body, const fem::Nodes& nodes) {
+  std::vector<Vec3> u = body.places(nodes);
+  for (std::size_t p = 0; p < u.size(); ++p) u[p] -= body.answers().places()[p].X;
+  return u;
+}
+
+std::vector<Vec3> velocitiesOf(const mpm::PointSolid& body, const fem::Nodes& nodes) {
+  std::vector<Vec3> v;
+  for (std::size_t p = 0; p < body.masses().size(); ++p) v.push_back(mpm::valueAt(body.rows(), p, nodes.v));
+  return v;
+}
+
+std::vector<double> radiiOf(const mpm::PointSolid& body, const PointMesh& mesh) {
+  std::vector<double> radius;
+  const double edge = mesh.grid.spacing / mesh.points.perAxis;
+  for (const fem::PointPlace& place : body.answers().places()) {
+    const Eigen::Map<const RowMajor> F(&body.answers().F()[9 * radius.size()]);
+    const double J = F.determinant();
+    radius.push_back(0.5 * (mesh.grid.plane ? edge * std::sqrt(J) : std::cbrt(J * place.volume)));
+  }
+  return radius;
 }
 
 MeshField stressAt(const Points& points) {
@@ -94,7 +141,7 @@ std::vector<MeshField> historyAt(const Points& points, const Solid& solid) {
   std::size_t size = 0;
   bool flows = false;
   forEachPoint(points, [&](const Points::Part& part, std::size_t p) {
-    const SolidMaterial& material = materialOf(solid, part.solid->name());
+    const SolidMaterial& material = materialOf(solid, part.name);
     const std::size_t own = part.sample.history.size() / part.sample.element.size();
     const std::span<const double> values(part.sample.history.data() + own * p, own);
     const bool yielding = own > 0 && yields(material);

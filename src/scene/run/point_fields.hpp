@@ -8,6 +8,10 @@
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/scene/build.hpp"
 
+namespace dovetail::mpm {
+class PointSolid;
+}  // namespace dovetail::mpm
+
 namespace dovetail::scene {
 
 /// Values side by side, per point or cell.
@@ -18,11 +22,12 @@ struct MeshField {
   bool perCell = true;
 };
 
-/// All points of the elements of a model, as they are now.
+/// All points of the elements of a model, or its material points, as they are now.
 struct Points {
   struct Part {
-    const fem::Solid* solid;
-    fem::Solid::Sample sample;
+    std::string name;              ///< of the term
+    const fem::PointField* field;  ///< null for elements with a law
+    fem::Solid::Sample sample;     ///< of material points: as the forces have asked last, elements −1
   };
   std::vector<Part> parts;
 
@@ -33,6 +38,11 @@ struct Points {
   }
 };
 Points pointsOf(const fem::Model& model);
+
+// Of material points: m, m/s (of the grid there), and half the edge of what a point stands for now, m.
+std::vector<Vec3> displacementsOf(const mpm::PointSolid& body, const fem::Nodes& nodes);
+std::vector<Vec3> velocitiesOf(const mpm::PointSolid& body, const fem::Nodes& nodes);
+std::vector<double> radiiOf(const mpm::PointSolid& body, const PointMesh& mesh);
 
 /// Calls act(part, p) for every point, p its number in the part.
 template <class Act>

@@ -5,13 +5,16 @@
 #include <utility>
 
 #include "build/changes.hpp"
+#include "build/extent.hpp"
 #include "build/parts.hpp"
 #include "build/wall_motion.hpp"
 #include "cell_fields.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/io/names.hpp"
+#include "dovetail/mpm/point_solid.hpp"
 #include "dovetail/surface/surface_contact.hpp"
+#include "frame_fields.hpp"
 
 namespace dovetail::scene {
 
@@ -77,7 +80,7 @@ void appendRegion(const dem::Particles& particles, const geometry::Box& box, std
     const Vec3& x = particles.x[i];
     bool inside = true;
     for (int c = 0; c < 3; ++c) inside = inside && x[c] >= box.lower[c] && x[c] <= box.upper[c];
-    if (!inside) continue;
+    if (!inside || particles.isOfSolid(i)) continue;
     const double m = particles.mass[i] * particles.weightOf(i);
     count += 1.0;
     mass += m;
@@ -95,7 +98,7 @@ void Probes::nameVector(const std::string& name, const std::string& unit) {
 
 template <>
 Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const GrainProbe& kind) {
-  const dem::Particles& particles = built.run->grains.particles;
+  const dem::Particles particles = grainsAlone(built.run->grains.particles);
   if (particles.size() == 0) throw InputError("there are no grains at the start", "", "leave the probe out");
   const std::int64_t id = particles.id[nearestTo(kind.at, particles.x)];
   nameVector(name + "_", "m");
@@ -113,10 +116,39 @@ Probes::Values Probes::find(const Built& built, const Scene&, const std::string&
 template <>
 Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const NodeProbe& kind) {
   const std::size_t solid = solidNamed(kind.solid, *built.run);
-  const std::size_t node = nearestTo(kind.at, built.run->solid(solid).nodes().X);
+  const std::size_t node = nearestTo(kind.at, built.meshes[solid].X);
   nameVector(name + "_u", "m");
+  if (materialPoints(*built.run->solid(solid).model))
+    return [solid, node, X = built.meshes[solid].X[node]](const Built& now, std::vector<double>& row) {
+      const fem::Model& model = *std::as_const(*now.run).solid(solid).model;
+      append(row, materialPoints(model)->places(model.nodes)[node] - X);
+    };
   return [solid, node](const Built& now, std::vector<double>& row) {
     append(row, std::as_const(*now.run).solid(solid).nodes().u[node]);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const BodyProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  nameVector(name + "_", "m");
+  nameVector(name + "_v", "m_per_s");
+  nameVector(name + "_least_", "m");
+  nameVector(name + "_most_", "m");
+  return [solid](const Built& now, std::vector<double>& row) {
+    const fem::Model& model = *std::as_const(*now.run).solid(solid).model;
+    const auto* const body = materialPoints(model);
+    std::vector<Vec3> x = body ? body->places(model.nodes) : model.nodes.X;
+    for (std::size_t n = 0; !body && n < x.size(); ++n) x[n] += model.nodes.u[n];
+    const std::vector<Vec3> v = body ? velocitiesOf(*body, model.nodes) : model.nodes.v;
+    const std::vector<double>& ofNodes = model.nodes.bodyMass.empty() ? model.nodes.mass : model.nodes.bodyMass;
+    const std::vector<double>& mass = body ? body->masses() : ofNodes;
+    Vec3 centre, momentum;
+    double all = 0.0;
+    Extent extent;
+    extent.add(x);
+    for (std::size_t n = 0; n < x.size(); ++n) all += mass[n], centre += mass[n] * x[n], momentum += mass[n] * v[n];
+    for (const Vec3& one : {1.0 / all * centre, 1.0 / all * momentum, extent.lower, extent.upper}) append(row, one);
   };
 }
 

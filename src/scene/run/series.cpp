@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "build/parts.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/fem/elements/solid.hpp"
@@ -96,7 +97,10 @@ std::vector<std::string> channelsOf(const Built& built, bool loads, bool changes
   for (std::size_t s = 0; s < run.solids(); ++s) {
     add(run.solid(s).name + ": supports");
     for (const auto& term : run.solid(s).model->terms)
-      if (dynamic_cast<const fem::Solid*>(term.get())) add(run.solid(s).name + ": dissipated by " + term->name());
+      if (term->isBody()) {
+        add(run.solid(s).name + ": dissipated by " + term->name());
+        if (term->ownsNodes()) add(run.solid(s).name + ": renewals of " + term->name());
+      }
     if (!loads) continue;
     for (const char* const later : {"load steps", "work of loads in load steps", "dissipated in load steps"})
       add(run.solid(s).name + ": " + later);
@@ -172,7 +176,7 @@ void Series::add(Built& built) {
   const bool looks = looksAtLimit();
   if (looks) limit_ = run.criticalStep();
   const coupling::Totals totals = run.totals();
-  std::vector<double> row{run.time(), static_cast<double>(run.grains.particles.size()),
+  std::vector<double> row{run.time(), static_cast<double>(countOfGrains(run.grains.particles)),
                           looks ? limit_->dt : table_.column("limit_s").back()};
   // A ledger has its channels in the order in which they came to be, which is another one in a run that was resumed:
   // sums are made in an order of our own.

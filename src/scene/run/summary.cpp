@@ -2,7 +2,9 @@
 
 #include <sstream>
 
+#include "build/parts.hpp"
 #include "dovetail/io/output_folder.hpp"
+#include "dovetail/mpm/point_solid.hpp"
 #include "dovetail/report/summary.hpp"
 #include "dovetail/scene/read.hpp"
 #include "series.hpp"
@@ -19,9 +21,15 @@ Json momentaOf(const Momenta& m) { return {{"linear_Ns", listOf(m.linear)}, {"an
 Json solidsOf(const Built& built) {
   Json list = Json::array();
   for (std::size_t s = 0; s < built.meshes.size(); ++s)
-    list.push_back({{"name", built.run->solid(s).name},
-                    {"nodes", built.meshes[s].X.size()},
-                    {"elements", built.meshes[s].elementCount()}});
+    if (const auto* const body = materialPoints(*built.run->solid(s).model))
+      list.push_back({{"name", built.run->solid(s).name},
+                      {"points", body->rows().points()},
+                      {"nodes", body->rows().nodes()},
+                      {"renewals", body->renewals()}});
+    else
+      list.push_back({{"name", built.run->solid(s).name},
+                      {"nodes", built.meshes[s].X.size()},
+                      {"elements", built.meshes[s].elementCount()}});
   return list;
 }
 
@@ -75,7 +83,7 @@ std::string writeSummary(const std::filesystem::path& folder, const io::KeyValue
   report::writeSummary(folder / "summary.json", provenance,
                        {{"title", scene.title},
                         {"time_s", run.time()},
-                        {"particles", run.grains.particles.size()},
+                        {"particles", countOfGrains(run.grains.particles)},
                         {"solids", solidsOf(built)},
                         {"insertions", insertionsListed(built)},
                         {"step", stepOf(run)},

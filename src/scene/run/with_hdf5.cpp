@@ -1,6 +1,7 @@
 // Series and solids as HDF5.
 #include <algorithm>
 
+#include "build/parts.hpp"
 #include "dovetail/io_hdf5/time_series_hdf5.hpp"
 #include "dovetail/io_hdf5/vtkhdf.hpp"
 #include "dovetail/solid_io/vtk_cell_types.hpp"
@@ -18,6 +19,7 @@ void writeSeriesHdf5(const std::filesystem::path& path, const io::TimeSeries& ta
 
 void writeSolidsHdf5(const std::filesystem::path& folder, const Built& built, const Scene& scene,
                      const io::KeyValues& provenance) {
+  constexpr unsigned char vertex = 1;  // VTK_VERTEX
   const std::vector<std::string>& contents = scene.output.contents;
   if (std::find(contents.begin(), contents.end(), "solids") == contents.end()) return;
   for (std::size_t s = 0; s < built.meshes.size(); ++s) {
@@ -31,6 +33,11 @@ void writeSolidsHdf5(const std::filesystem::path& folder, const Built& built, co
         grid.offsets.push_back(grid.offsets.back() + fem::nodesOf(group.shape));
         grid.types.push_back(solid_io::vtkCellType(group.shape));
       }
+    }
+    for (std::size_t p = 0; isOfPoints(scene.solids[s]) && p < mesh.X.size(); ++p) {
+      grid.connectivity.push_back(static_cast<int>(p));
+      grid.offsets.push_back(grid.offsets.back() + 1);
+      grid.types.push_back(vertex);
     }
     for (const MeshField& field : values)
       grid.fields.push_back({field.name, field.values, field.components, field.perCell});

@@ -29,7 +29,8 @@ void shrink(geometry::TriangleMesh& mesh) {
   for (Vec3& x : mesh.x) x += 1e-6 * (middle - x);
 }
 
-bool isPlane(const fem::SolidMesh& mesh) { return fem::dimensionOf(mesh) == 2; }
+/// Plane strain has none, and neither have material points.
+bool hasNoSkin(const fem::SolidMesh& mesh) { return mesh.groups.empty() || fem::dimensionOf(mesh) == 2; }
 
 void lookForGrainsWithin(const dem::Particles& p, const geometry::TriangleMesh& skin, const std::string& whose,
                          const std::string& remedy, Lines& lines) {
@@ -72,7 +73,7 @@ void lookAtWall(const std::string& name, const dem::TriangulatedWall& wall, cons
 }  // namespace
 
 void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
-  if (isPlane(built.meshes[solid])) return;
+  if (hasNoSkin(built.meshes[solid])) return;
   const coupling::SolidSide& side = built.run->solid(solid);
   lookForGrainsWithin(built.run->grains.particles, skinOf(built.meshes[solid], side.nodes()), quoted(side.name),
                       ", or give the two an overlap", lines);
@@ -80,7 +81,7 @@ void lookForGrainsWithin(const Built& built, std::size_t solid, Lines& lines) {
 
 void lookForStreamsWithin(const Built& built, const Scene& scene, std::size_t solid, Lines& lines) {
   constexpr int each = 5;
-  if (isPlane(built.meshes[solid])) return;
+  if (hasNoSkin(built.meshes[solid])) return;
   const coupling::SolidSide& side = built.run->solid(solid);
   const geometry::TriangleMesh skin = skinOf(built.meshes[solid], side.nodes());
   for (std::size_t k = 0; k < scene.insertions.size(); ++k) {
@@ -104,7 +105,7 @@ void lookForBodiesWithin(const Built& built, const Scene& scene, Lines& lines) {
   std::vector<geometry::TriangleMesh> bodies;
   std::vector<std::string> names;
   for (std::size_t s = 0; s < built.meshes.size(); ++s) {
-    if (isPlane(built.meshes[s])) continue;
+    if (hasNoSkin(built.meshes[s])) continue;
     names.push_back(quoted(scene.solids[s].name));
     bodies.push_back(skinOf(built.meshes[s], built.run->solid(s).nodes()));
     shrink(bodies.back());

@@ -57,7 +57,9 @@ void lookAtProbes(const Built& built, const Scene& scene, Lines& lines) {
       if (scene.solids[s].name != node->solid) continue;
       const fem::SolidMesh& mesh = built.meshes[s];
       const std::size_t n = nearestOf(mesh.X, node->at);
-      reportFar(probe, "node", node->at, mesh.X[n], spacingAt(mesh, n), lines);
+      const auto* const points = std::get_if<PointMesh>(&scene.solids[s].mesh);
+      reportFar(probe, points ? "point" : "node", node->at, mesh.X[n],
+                points ? points->grid.spacing : spacingAt(mesh, n), lines);
     }
   }
 }
@@ -151,8 +153,9 @@ void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
 // ---- solids
 
 void lookAtCouplings(const Built& built, const Scene& scene, Lines& lines) {
-  const bool anyGrains = built.run->grains.particles.size() > 0 || !scene.insertions.empty();
+  const bool anyGrains = countOfGrains(built.run->grains.particles) > 0 || !scene.insertions.empty();
   for (const Coupling& coupling : scene.couplings) {
+    if (std::holds_alternative<PointSpheres>(coupling.kind)) continue;
     if (!anyGrains)
       lines.push_back("The scene has no grains, so that the coupling of " + quoted(coupling.solid) +
                       " does nothing: give it particles or insertions, or leave the coupling out.");

@@ -137,11 +137,11 @@ void lookAtOptions(const Scene& scene, Lines& lines) {
       const bool shaped = overlap->kernelShape != usual.kernelShape || overlap->normalised != usual.normalised;
       reportIdle(overlap->kernel == 0.0 && shaped, of + "kernel_shape or kernel_normalised", "there is no kernel",
                  lines);
-    } else if (const auto& contact = std::get<SurfaceContact>(scene.couplings[k].kind);
-               contact.kernel.width.word == "none") {
+    } else if (const auto* const contact = std::get_if<SurfaceContact>(&scene.couplings[k].kind);
+               contact && contact->kernel.width.word == "none") {
       const SurfaceKernel usual;
-      reportIdle(contact.kernel.shape != usual.shape, of + "kernel_shape", "there is no kernel", lines);
-      reportIdle(contact.spread, of + "transfer", "there is no kernel that spreads a load", lines);
+      reportIdle(contact->kernel.shape != usual.shape, of + "kernel_shape", "there is no kernel", lines);
+      reportIdle(contact->spread, of + "transfer", "there is no kernel that spreads a load", lines);
     }
   }
   reportIdle(scene.steps.lag != 0 && scene.couplings.empty(), "steps.lag", "no solid has a coupling", lines);
@@ -282,7 +282,7 @@ void lookAtFloors(const Built& built, const Scene& scene, Lines& lines) {
   const double time = durationOf(scene);
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     const Solid& solid = scene.solids[s];
-    if (!solid.supports.empty() || solid.state) continue;
+    if (!solid.supports.empty() || solid.state || isOfPoints(solid)) continue;
     const Vec3 way = time * solid.velocity + (solid.gravity ? 0.5 * time * time : 0.0) * scene.gravity;
     if (const int wall = wallThrough(built, built.meshes[s].X, way); wall >= 0)
       lines.push_back(quoted(solid.name) + " moves into " + item("walls", static_cast<std::size_t>(wall)) +

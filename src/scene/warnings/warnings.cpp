@@ -116,6 +116,8 @@ void lookAtNames(const Scene& scene, Lines& lines) {
   for (const Coupling& one : scene.couplings)
     if (const auto* const contact = std::get_if<SurfaceContact>(&one.kind))
       usedMaterials.insert(contact->contactMaterial);
+    else if (const auto* const points = std::get_if<PointSpheres>(&one.kind))
+      usedMaterials.insert(points->contactMaterial);
   const bool states = std::ranges::any_of(
       scene.particles, [](const Particles& one) { return std::holds_alternative<GrainsOfState>(one.from); });
   if (!states) lookForUnused(materials, usedMaterials, "The contact material", lines);  // grains of a state have theirs
@@ -175,6 +177,14 @@ void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t numbe
   }
   const double g = norm(scene.gravity);
   if (!solid.planes.empty()) return;
+  if (isOfPoints(solid)) {
+    const auto& borders = std::get<PointMesh>(solid.mesh).grid.borders;
+    if (borders.empty() && g > 0.0 && solid.gravity && !touches)
+      lines.push_back(quoted(solid.name) +
+                      " has neither borders nor a coupling and falls: give its grid a border below, or leave gravity "
+                      "out.");
+    return;
+  }
   if (solid.supports.empty() && g > 0.0 && solid.gravity)
     return lines.push_back(quoted(solid.name) +
                            " has no supports and falls: hold some of its nodes, or leave gravity out.");
@@ -302,8 +312,8 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene, bool s
       overlaps = overlaps || overlap;
       if (overlap)
         lookAtOverlap(built, scene, s, *overlap, lines);
-      else
-        lookAtSurfaceContact(built, scene, s, std::get<SurfaceContact>(coupling.kind), lines);
+      else if (const auto* const contact = std::get_if<SurfaceContact>(&coupling.kind))
+        lookAtSurfaceContact(built, scene, s, *contact, lines);
     }
     if (!overlaps) lookForGrainsWithin(built, s, lines);
     lookForStreamsWithin(built, scene, s, lines);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,8 @@ public:
   /// Kinetic energy that velocities of points have beyond those of nodes, J.
   virtual double beyondNodes() const = 0;
   virtual std::int64_t renewals() const = 0;
+  /// Bytes.
+  virtual std::size_t memory() const = 0;
 };
 
 /// @throws InputError for no points, volumes that are not positive, numbers that differ, no field, options out of
@@ -66,6 +69,9 @@ fem::Model makeModel(std::shared_ptr<PointSolid> points);
 
 /// m g on every point: −∂/∂u of the energy −Σ m g · x. (fem::gravity acts on lumped nodes, which borders have moved.)
 std::shared_ptr<fem::Term> gravity(std::shared_ptr<const PointSolid> points, const Vec3& g,
+                                   std::string name = "gravity");
+/// The same with a function of the time, s, which stores no energy: its work is booked as it is done.
+std::shared_ptr<fem::Term> gravity(std::shared_ptr<const PointSolid> points, std::function<Vec3(double)> g,
                                    std::string name = "gravity");
 
 }  // namespace dovetail::mpm

@@ -85,10 +85,14 @@ struct Steps {
 struct GrainProbe {
   Vec3 at = requiredVector;  ///< m
 };
-/// Displacement of the node that is nearest at the start.
+/// Displacement of the node, or material point, that is nearest at the start.
 struct NodeProbe {
   std::string solid;
   Vec3 at = requiredVector;  ///< m
+};
+/// Centre of mass of a solid, its velocity, and the least and largest coordinates of its nodes or material points.
+struct BodyProbe {
+  std::string solid;
 };
 /// Force of the grains on a wall, their moment about its point, and how far it has come.
 struct WallProbe {
@@ -118,7 +122,9 @@ struct CellsProbe {
 };
 struct Probe {
   std::string name;
-  std::variant<GrainProbe, NodeProbe, WallProbe, SolidProbe, DriveProbe, SupportProbe, RegionProbe, CellsProbe> of;
+  std::variant<GrainProbe, NodeProbe, BodyProbe, WallProbe, SolidProbe, DriveProbe, SupportProbe, RegionProbe,
+               CellsProbe>
+      of;
   std::string where;
 };
 /// A cell of grains of a solid, at the point that is nearest at the start, whose grains are frames of their own.

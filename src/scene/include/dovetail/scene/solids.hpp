@@ -21,6 +21,49 @@ struct TetrahedraMesh {
   double size = required;                 ///< of the tetrahedra, m
   std::optional<double> surfaceDistance;  ///< m; not given: a twentieth of the size
 };
+/// What material points fill; in the plane as far as it is thick.
+struct PointBox {
+  geometry::Box box = requiredBox;  ///< m
+};
+struct PointBall {
+  Vec3 centre = requiredVector;  ///< m
+  double radius = required;      ///< m
+};
+/// Closed.
+struct PointSurface {
+  TriangleFiles surface;
+};
+/// Columns x_m, y_m, z_m and, if there, volume_m3 and vx_m_per_s, ….
+struct PointFile {
+  std::string file;
+};
+struct PointFilling {
+  std::variant<PointBox, CylinderRegion, PointBall, PointSurface, PointFile> from;
+  int perAxis = 2;  ///< points along an axis of a cell
+};
+/// See mpm::GridBorder.
+struct PointBorder {
+  std::string side = "y-";
+  double at = required;  ///< m, along the axis
+  int kind = 0;          ///< mpm::BorderKind
+  std::string where;
+};
+/// See mpm::PointOptions.
+struct PointGrid {
+  double spacing = required;  ///< m
+  bool plane = false;
+  int shape = 2;  ///< mpm::Shape
+  Vec3 origin;    ///< m
+  std::vector<PointBorder> borders;
+  int transfer = 0;      ///< mpm::Transfer
+  double damping = 0.0;  ///< 1/s
+  double renewal = 0.25;
+};
+/// Material points on a grid in place of a mesh.
+struct PointMesh {
+  PointFilling points;
+  PointGrid grid;
+};
 struct StVenantKirchhoff {
   double youngsModulus = required, poissonRatio = required;
 };
@@ -162,7 +205,7 @@ struct StateOfSolid {
 };
 struct Solid {
   std::string name;
-  std::variant<BoxMesh, MeshFile, TetrahedraMesh> mesh;
+  std::variant<BoxMesh, MeshFile, TetrahedraMesh, PointMesh> mesh;
   SolidMaterial material;  ///< of all elements but those of the regions
   std::vector<MaterialRegion> regions;
   std::string formulation = "standard";
@@ -216,9 +259,14 @@ struct Overlap {
   double absorber = 0.0;                              ///< 1/s
   bool initialEquilibrium = false;  ///< the solid begins in equilibrium (arlequin::initialEquilibrium)
 };
+/// A sphere at every material point, see mpm::PointContact.
+struct PointSpheres {
+  std::optional<double> radius;  ///< m; not given: half the distance of points as they fill a cell
+  std::string contactMaterial;
+};
 struct Coupling {
   std::string solid;
-  std::variant<SurfaceContact, Overlap> kind;
+  std::variant<SurfaceContact, Overlap, PointSpheres> kind;
   std::string where;
 };
 }  // namespace dovetail::scene
