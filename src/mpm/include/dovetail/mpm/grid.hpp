@@ -66,7 +66,10 @@ GridRows rowsAt(const GridOptions& grid, std::span<const Vec3> x, const std::str
 /// border, of all that hold points where there are none such. Below `leastPerCell` nodes move points without a strain
 /// that any point sees, and a body that is renewed sinks for ever under its weight.
 double pointsPerCell(const GridOptions& grid, std::span<const Vec3> x);
-inline double leastPerCell(const GridOptions& grid) { return grid.plane ? 2.0 : 3.0; }
+inline double leastPerCell(const GridOptions& grid) {
+  if (!grid.plane) return 3.0;
+  return grid.shape == Shape::cubic ? 2.4 : 2.0;
+}
 
 /// v with the components of `flip` turned round.
 inline Vec3 flipped(const Vec3& v, std::uint8_t flip) {
