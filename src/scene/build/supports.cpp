@@ -35,8 +35,8 @@ Holders::Holders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& sol
 
 std::string Holders::placeOf(int node, int component) const {
   const Vec3& X = mesh_.X[static_cast<std::size_t>(node)];
-  return std::string("component ") + "xyz"[component] + " of the node at (" + rounded(X.x) + ", " + rounded(X.y) +
-         ", " + rounded(X.z) + ") m";
+  const std::string axis(1, "xyz"[component]);
+  return "component " + axis + " of the node at (" + rounded(X.x) + ", " + rounded(X.y) + ", " + rounded(X.z) + ") m";
 }
 
 namespace {
@@ -271,7 +271,7 @@ void Holders::carry(const MeshTie& tie) {
 std::vector<std::string> putHolders(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid,
                                     const Scene& scene, const StepOf& step, const std::vector<SupportNow>& supports) {
   model.constraints = {};
-  std::ranges::fill(model.nodes.fixed, fem::dimensionOf(mesh) == 2 ? fem::componentZ : 0U);
+  std::ranges::fill(model.nodes.fixed, fem::dimensionOf(mesh) == 2 ? unsigned{fem::componentZ} : 0U);
   Holders holders(model, mesh, solid, scene, step);
   for (const SupportNow& one : supports) atPlace(one.support.where, [&] { holders.hold(one); });
   for (const MeshTie& tie : solid.ties) atPlace(tie.where, [&] { holders.carry(tie); });
