@@ -20,6 +20,7 @@ constexpr double inertialNumber = 1e-3, damping = 0.7, shear = 0.6, width = 0.00
 struct Curve {
   double peak = 0.0, where = 0.0, early = 0.0, critical = 0.0;
   int bonds = 0, pressed = 0;
+  double bending = 0.0;  ///< fraction of the stored energy that bonds hold by bending, at the peak
   int lost = 0;  ///< windows in which σ₂₂ was off by more than a twentieth: grains of the frame had been pushed in
 };
 
@@ -34,9 +35,16 @@ void go(rve::Rve& cell, double dt, double dGamma, double most, double wanted) {
   rve::step(cell, dt, G, damping);
 }
 
-/// Means of (σ₁₂/σ₂₂, σ₂₂) over 0.005 of F₁₂ each.
+double bendingFraction(const rve::Rve& cell) {
+  double energy = 0.0;
+  for (const rve::Bond& bond : cell.state.contacts.bond)
+    energy += 0.5 * bond.fraction * cell.bonds.bending * bond.turn * bond.turn;
+  return energy / rve::storedEnergy(cell);
+}
+
+/// Means of (σ₁₂/σ₂₂, σ₂₂) over 0.005 of F₁₂ each, and the bending fraction at their ends.
 struct Window {
-  double ratio = 0.0, normal = 0.0;
+  double ratio = 0.0, normal = 0.0, bending = 0.0;
 };
 
 std::vector<Window> windows(rve::Rve& cell, double rate) {
@@ -53,7 +61,7 @@ std::vector<Window> windows(rve::Rve& cell, double rate) {
       sigma12 += now(0, 1);
       sigma22 += now(1, 1);
     }
-    all.push_back({std::abs(sigma12 / sigma22), -sigma22 / count});
+    all.push_back({std::abs(sigma12 / sigma22), -sigma22 / count, bendingFraction(cell)});
   }
   return all;
 }
@@ -84,6 +92,7 @@ Curve sheared(rve::Rve cell) {
   const auto peak = std::ranges::max_element(
       all.begin(), all.begin() + 40, {}, [](const Window& window) { return isPressed(window) ? window.ratio : 0.0; });
   curve.peak = peak->ratio;
+  curve.bending = peak->bending;
   curve.where = width * (0.5 + static_cast<double>(peak - all.begin()));
   curve.early = meanRatio(all, 0.15, 0.2);
   curve.critical = meanRatio(all, 0.4, 0.6);
@@ -146,6 +155,9 @@ FigureRows mixedLayer(bool quick) {
     rows.push_back(rowOf("bonds left when pressed, %" + name,
                          over(bonded[f], [](const Curve& c) { return 100.0 * c.pressed / c.bonds; }), std::nan(""),
                          0.0));
+    rows.push_back(rowOf("bending of bonds, % of the stored energy at the peak" + name,
+                         over(bonded[f], [](const Curve& c) { return 100.0 * c.bending; }), std::nan(""), 0.0,
+                         "printed: about 10"));
   }
   return rows;
 }
