@@ -33,6 +33,7 @@ struct Figure {
 };
 
 // One source file each.
+FigureRows bandsOfCells(bool quick);
 FigureRows biaxial(bool quick);
 FigureRows column(bool quick);
 FigureRows explicitBiaxial(bool quick);

@@ -23,6 +23,7 @@ const std::vector<Figure> figures{
     {"strips", "Liu 2018, Figs 4.6 to 4.8 and 4.10", strips},
     {"biaxial", "Liu 2018, Figs 3.4, 3.10", biaxial},
     {"explicit-biaxial", "measured beforehand: 10 × 20 quad4, 800 cells", explicitBiaxial},
+    {"bands", "measured beforehand: 400 discs a cell, one packing", bandsOfCells},
     {"spheres", "Liu et al. 2015, sec. 3.3, Tables I, II", spheres},
     {"column", "Liu et al. 2015, sec. 3.3, Fig. 8", column},
 };
