@@ -1,0 +1,23 @@
+// Cases of material points with exact or published answers.
+#pragma once
+
+#include <string>
+
+namespace dovetail::benchmark {
+
+struct Case {
+  std::string name;  ///< as --only takes it
+  std::string what;
+  bool (*run)(bool quick);  ///< prints a table; @return whether all that is judged holds
+};
+
+// One source file each.
+bool bar(bool quick);
+bool column(bool quick);
+bool discs(bool quick);
+bool speed(bool quick);
+bool stability(bool quick);
+bool stretch(bool quick);
+bool vortex(bool quick);
+
+}  // namespace dovetail::benchmark
