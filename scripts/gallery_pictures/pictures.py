@@ -81,6 +81,8 @@ PICTURES = (
             settings=("tension=0",), lines=('"let"',)),
     Picture("column-collapse", "Material points flow over those at rest, in the light core of the heap; the base holds the lowest.",
             draw="--solids plastic_strain", lines=('"solids"',)),
+    Picture("pipe-in-cells", "Sand flows round the pipe and rises beside it; every point has its own cell of discs.",
+            draw="--solids shear_strain", lines=('"cells"', '"solids"')),
     Picture("bonded-beam", "The bonds in the middle have failed in tension; both halves oscillate.",
             contents="bonds", frame=0.8, draw="--lines bonds", lines=('"bonds"',)),
     Picture("cantilever", "Two balls slide to the free end of the beam; bending stress is largest at the clamp.",

@@ -243,16 +243,17 @@ std::shared_ptr<fem::PointField> fieldOf(std::vector<rve::Rve> samples, double u
   rve::Rve tried = samples.front();
   update.go(tried, tried.state.F, 1.0, false);  // says what is wrong with the settings
   const fem::FieldTraits traits{.name = nameOf(samples), .density = meanDensity(samples)};
-  if (!deal)
-    deal = [n = samples.size()](const fem::PointPlace& place) {
-      return static_cast<std::size_t>(place.element + place.point) % n;
-    };
+  if (!deal) deal = [n = samples.size()](const fem::PointPlace& place) { return inTurn(place) % n; };
   return fem::pointField(traits, [samples = std::move(samples), update, deal](const fem::PointPlace& place) {
     return std::make_unique<CellPoint<Update>>(samples.at(deal(place)), update);
   });
 }
 
 }  // namespace
+
+std::size_t inTurn(const fem::PointPlace& place) {
+  return static_cast<std::size_t>(std::max(place.element, 0) + place.point);
+}
 
 bool visitCell(const fem::PointField& field, std::size_t point, const std::function<void(const rve::Rve&)>& visit) {
   const auto* const owner = dynamic_cast<const CellOwner*>(field.point(point));

@@ -35,6 +35,12 @@ std::vector<Vec3> presentSlopes(const GridRows& rows, std::size_t p, std::span<c
   return slopes;
 }
 
+/// Whether nodes beyond a border count for it, of which mirrored ones stand in.
+bool reachesBeyond(const GridRows& rows, std::size_t p) {
+  const std::size_t first = rows.perPoint * at(rows.cell[p]);
+  return std::any_of(&rows.flip[first], &rows.flip[first] + rows.perPoint, [](auto flip) { return flip != 0; });
+}
+
 Vec3 halfCurlAt(const GridRows& rows, std::size_t p, std::span<const Vec3> u, std::span<const Vec3> v) {
   const std::vector<Vec3> slopes = presentSlopes(rows, p, u);
   Vec3 sum;
@@ -114,6 +120,8 @@ void PointContact::addForces(dem::Model& m, const dem::Step&) {
   dem::Particles& particles = m.particles;
   const std::vector<int>& number = numbers(particles);
   const GridRows& rows = points_->rows();
+  const std::span<const Vec3> u = side().nodes().u;
+  ofBorders_ = {};
   for (std::size_t p = 0; p < number.size(); ++p) {
     const std::size_t i = at(number[p]), first = rows.perPoint * at(rows.cell[p]);
     const Vec3 force = particles.f[i] - particles.mass[i] * m.gravity;
@@ -121,11 +129,19 @@ void PointContact::addForces(dem::Model& m, const dem::Step&) {
     particles.f[i] = {};
     if (particles.rotates()) particles.torque[i] = {};
     if (force == Vec3{} && torque == Vec3{}) continue;
-    const std::vector<Vec3> slopes = torque == Vec3{} ? std::vector<Vec3>() : presentSlopes(rows, p, side().nodes().u);
+    const std::vector<Vec3> slopes = torque == Vec3{} ? std::vector<Vec3>() : presentSlopes(rows, p, u);
+    const bool nearBorder = reachesBeyond(rows, p);
     for (std::size_t a = 0; a < rows.perPoint; ++a) {
       Vec3 share = rows.weight[rows.perPoint * p + a] * force;
       if (!slopes.empty()) share += 0.5 * cross(torque, slopes[a]);
-      side().load.add(rows.node[first + a], flipped(share, rows.flip[first + a]));
+      const int node = rows.node[first + a];
+      share = flipped(share, rows.flip[first + a]);
+      side().load.add(node, share);
+      if (nearBorder) ofBorders_.add(rows.X[at(node)] + u[at(node)], share);
+    }
+    if (nearBorder) {
+      ofBorders_.add(particles.x[i], -1.0 * force);
+      ofBorders_.angular -= torque;
     }
   }
 }
@@ -168,6 +184,8 @@ void PointContact::addMomenta(const dem::Model& m, Momenta& sums) const {
     if (m.particles.rotates()) sums.angular -= dem::momentOfInertia(m.particles, number) * m.particles.omega[i];
   }
 }
+
+void PointContact::addOutside(const dem::Model&, Momenta& force, Momenta&) const { force += ofBorders_; }
 
 PointContact& addSpheres(dem::Model& grains, coupling::SolidSide& side, std::shared_ptr<const PointSolid> points,
                          const SphereOptions& options) {

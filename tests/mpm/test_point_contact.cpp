@@ -202,6 +202,30 @@ TEST(PointContact, BalancesWhatBordersGive) {
   EXPECT_LE(std::abs(run.ledger().residual()), 1e-5 * moved);
 }
 
+/// Of a contact force there borders take a share, along them as across.
+TEST(PointContact, BalancesForcesNearBorders) {
+  for (const BorderKind kind : {BorderKind::symmetry, BorderKind::held}) {
+    CoupledRun run;
+    run.grains.laws = dem::makeContactLaws(dem::FrictionalLaw{{confined}, {0.8 * confined, 0.5}});
+    dem::addParticle(run.grains.particles, {0.08, 0.62, 0.0}, {-2.0, -3.0, 0.0}, 0.1, dem::Mass{30.0});
+    const auto body = makePoints(block({}, {0.5, 0.5, 0.0}, spacing, true), elastic(youngs, poisson),
+                                 {.grid = {.spacing = 2.0 * spacing, .borders = {{.axis = 0, .kind = kind}, {}}}});
+    auto& side = run.addSolid(std::make_unique<fem::Model>(makeModel(body)), {.name = "block"});
+    addSpheres(run.grains, side, body, {.radius = 0.5 * spacing});
+    run.start(1e-4);
+    const double moved = run.kineticEnergy();
+    run.advance(600);
+    const coupling::Totals totals = run.totals();
+    double given = 0.0;
+    for (const auto& channel : totals.given.channels())
+      if (channel.name == "particles: contact of points") given = norm(channel.given.linear);
+    EXPECT_GT(given, 0.1);
+    EXPECT_LE(norm(totals.residual.linear), 1e-12 * totals.turnedOver);
+    EXPECT_LE(norm(totals.residual.angular), 1e-11 * totals.turnedOverAngular);
+    EXPECT_LE(std::abs(run.ledger().residual()), 1e-3 * moved);
+  }
+}
+
 class Keeps final : public coupling::Connector {
 public:
   using Connector::Connector;

@@ -73,7 +73,8 @@ StableStep stableStep(Model& model, const std::string& of) {
       if (limit.element < 0 || own->dt < limit.dt) limit = *std::move(own);
   if (limit.element < 0)
     throw InputError("the model has no solid", "stableStep", "add one with makeSolid, or ask assembledStableStep");
-  const std::string name = "\"" + (of.empty() ? limit.solid : of) + "\"";
+  std::string name = of.empty() ? limit.solid : of;
+  name.insert(0, 1, '"').push_back('"');
   limit.owner = limit.part + (" " + std::to_string(limit.element)) + " of " + name;
   const Pull pull = strongestPull(model);
   if (pull.node < 0) return limit;

@@ -108,10 +108,10 @@ void addCells(Built& built, const Scene& scene) {
   }
 }
 
-std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, const CellElements& elements) {
+std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, const CellPlaces& places) {
   DealtCells dealt{banked(built, law.cells), {}};
-  if (law.deal == GrainCells::Deal::byDepth) dealt = pressedByDepth(dealt.cells, elements);
-  if (elements.loadSteps)
+  if (law.deal == GrainCells::Deal::byDepth) dealt = pressedByDepth(dealt.cells, places);
+  if (places.loadSteps)
     return hierarchical::cellField(
         std::move(dealt.cells),
         hierarchical::QuasiStaticCells{
@@ -127,9 +127,26 @@ std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& bui
 void requireDimension(const GrainCells& law, int dimension, fem::Formulation formulation, const Built& built) {
   if (banked(built, law.cells).front().shape == rve::Shape::sphere) return;
   const std::string of = "the cells \"" + law.cells + "\" are discs, which deform in their plane only";
-  if (dimension != 2) throw InputError(of, "", "take a mesh of quad4 or quad8, or spheres");
+  if (dimension != 2) throw InputError(of, "", "take a mesh of quad4 or quad8, points of plane strain, or spheres");
   if (formulation == fem::Formulation::meanDilatation)
     throw InputError(of, "formulation", "write \"standard\", or \"reduced\" with quad8");
+}
+
+bool takesLoadStepsAlone(const Scene& scene) {
+  return std::ranges::all_of(scene.stages,
+                             [](const Stage& stage) { return std::holds_alternative<Statics>(stage.kind); });
+}
+
+void requireCellStages(const Solid& solid, const Scene& scene) {
+  if (hasStatics(scene) && isOfPoints(solid))
+    throw InputError("load steps of cells at material points are not there", "",
+                     "let the body come to rest in a run or a relaxation");
+  if (hasStatics(scene) && !takesLoadStepsAlone(scene))
+    throw InputError("cells of grains rest in load steps, and follow the solid in other stages", "",
+                     "take load steps alone, or none: a run with slow loads is a test too");
+  if (solid.implicitSteps)
+    throw InputError("cells of grains answer too coarsely for implicit steps", "stepping",
+                     "leave it out, or take load steps");
 }
 
 namespace {
@@ -142,14 +159,16 @@ double pressureOf(const Solid& solid, const Built& built) {
   return 0.0;
 }
 
-/// @throws InputError naming the node that the stress of the cells pushes most, if next to nothing holds it
-void requireHeld(const coupling::SolidSide& side, const Solid& solid, double pressure) {
+/// @throws InputError naming the node that the stress of the cells pushes most, if next to nothing holds it; of
+/// material points it is a note
+void requireHeld(const coupling::SolidSide& side, const Solid& solid, double pressure,
+                 std::vector<std::string>& notes) {
   constexpr double most = 0.5;
   const fem::Nodes& nodes = side.nodes();
   std::vector<Vec3> all(nodes.X.size()), inner(all.size());
   for (const auto& term : side.model->terms) {
     term->addForces(nodes, {.t = side.model->t}, all);
-    if (dynamic_cast<const fem::Solid*>(term.get())) term->addForces(nodes, {.t = side.model->t}, inner);
+    if (term->isBody()) term->addForces(nodes, {.t = side.model->t}, inner);
   }
   const fem::DofMap& dofs = side.mass->dofs();
   std::vector<double> free(dofs.size());  // with what ties pass on
@@ -163,11 +182,17 @@ void requireHeld(const coupling::SolidSide& side, const Solid& solid, double pre
   }
   if (worst <= most * largest) return;
   const Vec3& X = nodes.X[at];
+  const std::string what = "the cells of \"" + solid.name + "\" start under a pressure of " + rounded(pressure) +
+                           " Pa, which nothing holds ",
+                    place = "(" + formatNumber(X.x) + ", " + formatNumber(X.y) + ", " + formatNumber(X.z) + ")";
+  if (isOfPoints(solid)) {
+    notes.push_back("WARNING: In " + solid.where + " " + what + "near " + place +
+                    ", where the body starts to move. To let it rest, end it at borders of \"grid\" or walls, and "
+                    "deal cells of little pressure \"by depth\".");
+    return;
+  }
   throw InputError(
-      "the cells of \"" + solid.name + "\" start under a pressure of " + rounded(pressure) +
-          " Pa, which nothing holds at node " + std::to_string(at) + " (" + formatNumber(X.x) + ", " +
-          formatNumber(X.y) + ", " + formatNumber(X.z) + ")",
-      solid.where,
+      what + "at node " + std::to_string(at) + " " + place, solid.where,
       solid.regions.empty()
           ? "give each of its faces without a support a load {\"type\": \"pressure\", \"pressure\": \"" +
                 rounded(1e-3 * pressure) + " kPa\"}"
@@ -177,10 +202,16 @@ void requireHeld(const coupling::SolidSide& side, const Solid& solid, double pre
 
 }  // namespace
 
-void requireHeldCells(const Built& built, const Scene& scene) {
-  for (std::size_t s = 0; s < scene.solids.size(); ++s)
-    if (const double pressure = pressureOf(scene.solids[s], built); pressure > 0.0 && !scene.solids[s].state)
-      requireHeld(std::as_const(*built.run).solid(s), scene.solids[s], pressure);
+void requireHeldCells(Built& built, const Scene& scene) {
+  for (std::size_t s = 0; s < scene.solids.size(); ++s) {
+    const Solid& solid = scene.solids[s];
+    const double pressure = pressureOf(solid, built);
+    const bool mayMeetWalls = isOfPoints(solid) && std::ranges::any_of(scene.couplings, [&](const Coupling& one) {
+                                return one.solid == solid.name;
+                              });
+    if (pressure > 0.0 && !solid.state && !mayMeetWalls)
+      requireHeld(std::as_const(*built.run).solid(s), solid, pressure, built.notes);
+  }
 }
 
 double confinedModulus(const GrainCells& law, const Built& built) {

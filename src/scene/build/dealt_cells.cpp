@@ -5,9 +5,6 @@
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/fem/elements/solid.hpp"
-#include "dovetail/fem/laws/materials.hpp"
-#include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/rve/equilibrium.hpp"
 
 namespace dovetail::scene {
@@ -19,12 +16,12 @@ constexpr double sameDepth = 1e-9;  // of the height of the solid
 constexpr int passes = 2;           // cells under more pressure are denser, and weigh more
 constexpr double bytesOfGrain = 1000.0;
 
-/// Depths of points below the highest node, m.
+/// Depths of points below the highest corner, m.
 class Depths {
 public:
-  Depths(const fem::SolidMesh& mesh, const Vec3& gravity) : down_(gravity / norm(gravity)) {
+  Depths(const std::vector<Vec3>& corners, const Vec3& gravity) : down_(gravity / norm(gravity)) {
     const auto along = [&](const Vec3& X) { return dot(down_, X); };
-    const auto [top, bottom] = std::ranges::minmax(mesh.X, {}, along);
+    const auto [top, bottom] = std::ranges::minmax(corners, {}, along);
     top_ = along(top);
     same_ = sameDepth * (along(bottom) - top_);
   }
@@ -50,23 +47,18 @@ private:
   std::vector<double> levels_;
 };
 
-std::vector<Vec3> pointsOf(const CellElements& elements) {
-  const auto anyLaw = fem::pointMaterial(fem::StVenantKirchhoff{1.0, 0.0, 1.0});
-  return fem::makeSolid(elements.mesh, anyLaw, elements.options)->sample(fem::makeModel(elements.mesh).nodes, {}).X;
-}
-
 }  // namespace
 
-DealtCells pressedByDepth(const std::vector<rve::Rve>& cells, const CellElements& elements) {
-  const double weight = norm(elements.gravity);
+DealtCells pressedByDepth(const std::vector<rve::Rve>& cells, const CellPlaces& places) {
+  const double weight = norm(places.gravity);
   if (!(weight > 0.0))
     throw InputError("cells are dealt by depth, and no gravity acts on the solid", "deal",
                      "give the scene a gravity, or leave \"deal\" out");
-  Depths depths(elements.mesh, elements.gravity);
-  depths.add(pointsOf(elements));
+  Depths depths(places.corners, places.gravity);
+  depths.add(places.points());
   const std::size_t levels = depths.levels().size(), n = cells.size();
   requireMemory(static_cast<double>(levels * n * cells.front().size()), "grains of cells", bytesOfGrain,
-                "take fewer cells, or a mesh in layers");
+                "take fewer cells, or points in layers");
   std::vector<rve::Rve> pressed(levels * n);
   for (std::size_t k = 0; k < pressed.size(); ++k) pressed[k] = cells[k % n];
   for (int pass = 0; pass < passes; ++pass) {
@@ -81,7 +73,7 @@ DealtCells pressedByDepth(const std::vector<rve::Rve>& cells, const CellElements
     });
   }
   auto deal = [depths, n](const fem::PointPlace& place) {
-    return depths.levelOf(place.X) * n + static_cast<std::size_t>(place.element + place.point) % n;
+    return depths.levelOf(place.X) * n + hierarchical::inTurn(place) % n;
   };
   return {std::move(pressed), std::move(deal)};
 }

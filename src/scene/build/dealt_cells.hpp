@@ -14,6 +14,6 @@ struct DealtCells {
 /// At every depth d that a point has, below the highest node of the solid, the cells pressed on from their pressure p
 /// to p + ρ g d, all round and under their own friction; points of one depth get them in turn. ρ is the mean density of
 /// all. @throws InputError if nothing weighs, or the memory is not enough; as rve::compress
-DealtCells pressedByDepth(const std::vector<rve::Rve>& cells, const CellElements& elements);
+DealtCells pressedByDepth(const std::vector<rve::Rve>& cells, const CellPlaces& places);
 
 }  // namespace dovetail::scene

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -121,20 +122,25 @@ inline bool hasCells(const SolidMaterial& material) { return std::holds_alternat
 void addCells(Built& built, const Scene& scene);
 std::vector<rve::Rve> makeCells(const Cells& cells);
 inline constexpr double restOfCells = 1e-6;  ///< forces out of balance over the mean contact force
-/// What becomes a field of cells.
-struct CellElements {
-  const fem::SolidMesh& mesh;
-  const fem::SolidOptions& options;
-  Vec3 gravity;            ///< on the solid, m/s²
-  bool loadSteps = false;  ///< whether they rest at every state, in place of following a motion
+/// Where cells go.
+struct CellPlaces {
+  std::vector<Vec3> corners;                  ///< of the solid: depths are below the highest, m
+  std::function<std::vector<Vec3>()> points;  ///< that get a cell, m
+  Vec3 gravity;                               ///< on the solid, m/s²
+  bool loadSteps = false;                     ///< whether they rest at every state, in place of following a motion
 };
 /// A field of its own for each term. @throws InputError if cells are dealt by depth and nothing weighs
-std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, const CellElements& elements);
+std::shared_ptr<fem::PointField> fieldOf(const GrainCells& law, const Built& built, const CellPlaces& places);
+/// Whether points rest at every state, in place of following a motion.
+bool takesLoadStepsAlone(const Scene& scene);
+/// @throws InputError for stages and steps that cells cannot answer for
+void requireCellStages(const Solid& solid, const Scene& scene);
 /// @throws InputError for discs out of plane strain, or in elements that do not keep it
 void requireDimension(const GrainCells& law, int dimension, fem::Formulation formulation, const Built& built);
 double confinedModulus(const GrainCells& law, const Built& built);
-/// Of a started run. @throws InputError if neither supports nor loads hold the stress that cells start with
-void requireHeldCells(const Built& built, const Scene& scene);
+/// Of a started run. @throws InputError if neither supports nor loads hold the stress that cells start with; of
+/// material points, which may flow, it is a note
+void requireHeldCells(Built& built, const Scene& scene);
 /// The first is that of all elements without a region, the others those of the regions.
 std::vector<const SolidMaterial*> materialsOf(const Solid& solid);
 /// Whether it remembers plastic strains.

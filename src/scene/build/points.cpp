@@ -6,6 +6,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/setup/packing.hpp"
 #include "dovetail/dem/walls/rigid_wall.hpp"
+#include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/point_field.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
@@ -176,8 +177,28 @@ void requireNoElements(const Solid& solid, const Scene& scene) {
       if (change.solid == solid.name)
         throw InputError("material points have no supports", change.where, "leave the change out");
   }
-  if (hasCells(solid.material))
-    throw InputError("cells of grains answer for elements of a mesh", "material", "take a mesh, or another law");
+}
+
+// ---- what they are of
+
+/// Corners of what points stand for: half an edge around them.
+std::vector<Vec3> cornersOf(const mpm::MaterialPoints& points, double edge) {
+  std::vector<Vec3> corners;
+  for (const Vec3& x : points.x)
+    for (const double side : {-0.5 * edge, 0.5 * edge}) corners.push_back(x + Vec3{side, side, side});
+  return corners;
+}
+
+std::shared_ptr<fem::PointField> fieldIn(const Solid& solid, const mpm::MaterialPoints& points, const Scene& scene,
+                                         const Built& built) {
+  const auto* const cells = std::get_if<GrainCells>(&solid.material.law);
+  if (!cells) return fem::pointField(makeMaterial(solid.material));
+  const auto& [filling, grid] = std::get<PointMesh>(solid.mesh);
+  requireDimension(*cells, grid.plane ? 2 : 3, fem::Formulation::standard, built);
+  return fieldOf(*cells, built,
+                 {.corners = cornersOf(points, grid.spacing / filling.perAxis),
+                  .points = [&] { return points.x; },
+                  .gravity = solid.gravity ? scene.gravity : Vec3{}});
 }
 
 }  // namespace
@@ -191,14 +212,14 @@ std::unique_ptr<fem::Model> makePoints(const Solid& solid, const Scene& scene, B
   const Filled to{solid, options.grid, filling.perAxis, built.notes};
   const mpm::MaterialPoints points = std::visit([&](const auto& from) { return pointsIn(to, from); }, filling.from);
   requireWithin(points, grid.borders);
-  const auto body = mpm::makePoints(points, fem::pointField(makeMaterial(solid.material)), options);
+  const auto body = mpm::makePoints(points, fieldIn(solid, points, scene, built), options);
   auto model = std::make_unique<fem::Model>(mpm::makeModel(body));
   if (solid.gravity && changesGravity(scene))
     model->add(mpm::gravity(body, [now = built.changing.gravity](double) { return *now; }));
   else if (solid.gravity && norm(scene.gravity) > 0.0)
     model->add(mpm::gravity(body, scene.gravity));
   if (solid.massDamping > 0.0) model->add(fem::massDamping(solid.massDamping));
-  built.meshes.push_back({.X = points.x});
+  built.meshes.emplace_back().X = points.x;
   built.supports.emplace_back();
   return model;
 }

@@ -7,6 +7,8 @@
 #include "changes.hpp"
 #include "dovetail/arlequin/overlap.hpp"
 #include "dovetail/fem/elements/solid.hpp"
+#include "dovetail/fem/laws/materials.hpp"
+#include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/terms/gradient_energy.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/io/names.hpp"
@@ -69,10 +71,10 @@ const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
   return found;
 }
 
-/// Whether its points rest at every state, in place of following a motion.
-bool takesLoadStepsAlone(const Scene& scene) {
-  return std::ranges::all_of(scene.stages,
-                             [](const Stage& stage) { return std::holds_alternative<Statics>(stage.kind); });
+/// Of the quadrature, m.
+std::vector<Vec3> quadraturePoints(const fem::SolidMesh& mesh, const fem::SolidOptions& options) {
+  const auto anyLaw = fem::pointMaterial(fem::StVenantKirchhoff{1.0, 0.0, 1.0});
+  return fem::makeSolid(mesh, anyLaw, options)->sample(fem::makeModel(mesh).nodes, {}).X;
 }
 
 std::shared_ptr<fem::Solid> makeElements(const fem::SolidMesh& mesh, const SolidMaterial& material,
@@ -80,7 +82,8 @@ std::shared_ptr<fem::Solid> makeElements(const fem::SolidMesh& mesh, const Solid
                                          bool loadSteps) {
   if (const auto* const cells = std::get_if<GrainCells>(&material.law)) {
     requireDimension(*cells, fem::dimensionOf(mesh), options.formulation, built);
-    return fem::makeSolid(mesh, fieldOf(*cells, built, {mesh, options, gravity, loadSteps}), options);
+    const CellPlaces places{mesh.X, [&] { return quadraturePoints(mesh, options); }, gravity, loadSteps};
+    return fem::makeSolid(mesh, fieldOf(*cells, built, places), options);
   }
   return fem::makeSolid(mesh, makeMaterial(material), options);
 }
@@ -158,6 +161,7 @@ void addPoints(Built& built, const Solid& solid, const Scene& scene) {
   coupling::SolidOptions options{.name = solid.name};
   options.stepping = solid.implicitSteps ? coupling::Stepping::implicitSteps : coupling::Stepping::explicitSteps;
   options.implicitOptions.linear.method = static_cast<linalg::LinearMethod>(solid.linearSolver);
+  if (hasCells(solid.material)) requireCellStages(solid, scene);
   built.run->addSolid(makePoints(solid, scene, built), options);
 }
 
@@ -203,12 +207,7 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   coupling::SolidOptions options{.name = solid.name};
   options.implicitOptions.linear.method = static_cast<linalg::LinearMethod>(solid.linearSolver);
   if (anyCells) {
-    if (hasStatics(scene) && !takesLoadStepsAlone(scene))
-      throw InputError("cells of grains rest in load steps, and follow the solid in other stages", "",
-                       "take load steps alone, or none: a run with slow loads is a test too");
-    if (solid.implicitSteps)
-      throw InputError("cells of grains answer too coarsely for implicit steps", "stepping",
-                       "leave it out, or take load steps");
+    requireCellStages(solid, scene);
     options.newton = newtonOfCells;
     options.motionIterations = 20000;
   }

@@ -74,10 +74,10 @@ std::vector<MeshField> cellsAt(const Points& points) {
 
 std::vector<CellPoint> cellPoints(const fem::Model& model) {
   std::vector<CellPoint> cells;
-  int last = -1, point = 0;
+  int last = -1, point = -1;
   forEachPoint(pointsOf(model), [&](const Points::Part& part, std::size_t p) {
     const fem::Solid::Sample& sample = part.sample;
-    point = sample.element[p] == last ? point + 1 : 0;
+    point = sample.element[p] == last ? point + 1 : 0;  // of points without elements, their number
     last = sample.element[p];
     if (part.field && hierarchical::visitCell(*part.field, p, [](const rve::Rve&) {}))
       cells.push_back({part.field, p, last, point, sample.X[p], sample.volume[p]});

@@ -42,9 +42,11 @@ struct DynamicCells {
 
 /// Number of the sample that a point begins as.
 using Deal = std::function<std::size_t(const fem::PointPlace&)>;
+/// element + point, of points without elements their number: neighbours differ.
+std::size_t inTurn(const fem::PointPlace& place);
 
 /// Points of a solid that own a cell each. Disc cells answer for F in the plane (plane strain: quad4, quad8), sphere
-/// cells for any F. Without `deal`, point q of element e begins as cell (e + q) modulo their number. The density is
+/// cells for any F. Without `deal`, a point begins as cell inTurn() modulo their number. The density is
 /// the mean of the cells'. Each point is one task, longest first and serial inside: digits do not depend on the number
 /// of threads. The tangent is not symmetric. A point that has no answer says why: the step is cut.
 /// @param samples  cells of the same shape and springs, at rest and under pressure at F = 1

@@ -45,6 +45,8 @@ public:
   void addOwnForces(dem::ContactDemand& demand, double rate) const override;
   void addEnergies(const dem::Model& m, dem::Energies& e) const override;
   void addMomenta(const dem::Model& m, Momenta& sums) const override;
+  /// What borders of the grid take of contact forces near them, and add to them.
+  void addOutside(const dem::Model& m, Momenta& force, Momenta& impulse) const override;
 
   /// Numbers of the particles, in the order of points.
   const std::vector<int>& numbers(const dem::Particles& particles) const;
@@ -52,6 +54,7 @@ public:
 private:
   std::shared_ptr<const PointSolid> points_;
   std::vector<std::int64_t> ids_;
+  Momenta ofBorders_;
   mutable std::vector<int> number_;
   mutable std::int64_t located_ = -1;
 };
