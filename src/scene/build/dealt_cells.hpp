@@ -11,7 +11,7 @@ struct DealtCells {
   hierarchical::Deal deal;  ///< their numbers
 };
 
-/// At every depth d that a point has, below the highest node of the solid, the cells pressed on from their pressure p
+/// At every depth d that a point has, below the highest corner of the solid, the cells pressed on from their pressure p
 /// to p + ρ g d, all round and under their own friction; points of one depth get them in turn. ρ is the mean density of
 /// all. @throws InputError if nothing weighs, or the memory is not enough; as rve::compress
 DealtCells pressedByDepth(const std::vector<rve::Rve>& cells, const CellPlaces& places);
