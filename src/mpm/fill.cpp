@@ -6,6 +6,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
 
 namespace dovetail::mpm {
 
@@ -39,7 +40,9 @@ void validate(const GridOptions& grid, const geometry::Box& box, int perAxis) {
 
 }  // namespace
 
-MaterialPoints fillBox(const GridOptions& grid, const geometry::Box& box, int perAxis, const Vec3& velocity) {
+namespace {
+
+Parts partsOf(const GridOptions& grid, const geometry::Box& box, int perAxis) {
   validate(grid, box, perAxis);
   const Vec3 extent = box.upper - box.lower;
   Parts parts{box.lower, extent, {1, 1, 1}};
@@ -48,6 +51,42 @@ MaterialPoints fillBox(const GridOptions& grid, const geometry::Box& box, int pe
     count = std::max(1, static_cast<int>(std::lround(perAxis * extent[c] / grid.spacing)));
     parts.edge[c] = extent[c] / count;
   }
+  return parts;
+}
+
+/// Without elements, and nodes that no face has.
+fem::SolidMesh facesOnly(const fem::SolidMesh& mesh) {
+  fem::SolidMesh faces;
+  faces.thickness = mesh.thickness;
+  faces.faceSets = mesh.faceSets;
+  std::vector<int> number(mesh.X.size(), -1);
+  for (auto& [name, set] : faces.faceSets)
+    for (fem::Face& face : set)
+      for (int& node : face.node) {
+        if (node < 0) continue;
+        int& own = number[static_cast<std::size_t>(node)];
+        if (own < 0) {
+          own = static_cast<int>(faces.X.size());
+          faces.X.push_back(mesh.X[static_cast<std::size_t>(node)]);
+        }
+        node = own;
+      }
+  return faces;
+}
+
+}  // namespace
+
+fem::SolidMesh facesOfBox(const GridOptions& grid, const geometry::Box& box, int perAxis) {
+  const Parts parts = partsOf(grid, box, perAxis);
+  fem::SolidMesh faces = facesOnly(fem::boxOf(grid.plane ? fem::ElementShape::quad4 : fem::ElementShape::hex8,
+                                              parts.count, box.lower, box.upper));
+  if (grid.plane)
+    for (Vec3& x : faces.X) x.z = 0.0;
+  return faces;
+}
+
+MaterialPoints fillBox(const GridOptions& grid, const geometry::Box& box, int perAxis, const Vec3& velocity) {
+  const Parts parts = partsOf(grid, box, perAxis);
   MaterialPoints points;
   for (std::size_t k = 0; k < parts.size(); ++k) points.x.push_back(parts.middle(k, grid.plane));
   points.v.assign(parts.size(), velocity);

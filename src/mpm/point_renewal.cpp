@@ -37,6 +37,7 @@ bool Points::wantsOtherNodes(const Nodes& nodes) const {
 
 void Points::layNodes(Nodes& nodes) {
   rows_ = rowsAt(options_.grid, carried_.x, options_.name);
+  for (auto& [anchors, markers] : marked_) findMap(rows_, anchors, carried_.x, markers);
   const std::size_t count = rows_.nodes();
   nodes.X = rows_.X;
   nodes.u.assign(count, {});
@@ -55,6 +56,10 @@ double Points::renewNodes(Nodes& nodes, double t) {
   requireSameNodes(nodes);
   const double before = fem::kineticEnergy(nodes) + beyond_;
   const double keep = std::exp(-options_.damping * (t - laidAt_));
+  for (auto& [anchors, markers] : marked_) {
+    const std::vector<Vec3> moved = valuesAt(markers, nodes.u);
+    for (std::size_t m = 0; m < moved.size(); ++m) markers.X[m] += moved[m];
+  }
   leaveGrid(rows_, nodes.u, nodes.v, v0_, keep, carried_);
   F0_.assign(answers_.F().begin(), answers_.F().end());
   ++renewals_;
@@ -68,6 +73,24 @@ double Points::renewNodes(Nodes& nodes, double t) {
 void Points::save(ByteWriter& archive) const {
   archive(carried_.x, carried_.v, carried_.moment, F0_, laidAt_, renewals_);
   answers_.save(archive);
+  for (const auto& [anchors, markers] : marked_) archive(markers.X);
+}
+
+std::size_t Points::addMarkers(std::span<const Vec3> x) {
+  if (renewals_ > 0)
+    throw InputError("the grid has been renewed", options_.name, "add markers before the run, at the first places");
+  Marked marked{nearestPoints(options_.grid, carried_.x, x, options_.name), {{x.begin(), x.end()}, {}, {}}};
+  if (rows_.points() == 0) rows_ = rowsAt(options_.grid, carried_.x, options_.name);
+  findMap(rows_, marked.anchors, carried_.x, marked.markers);
+  marked_.push_back(std::move(marked));
+  return marked_.size() - 1;
+}
+
+const Markers& Points::markers(std::size_t set) const {
+  if (set >= marked_.size())
+    throw InputError("there is no set " + std::to_string(set) + " of markers", options_.name,
+                     "give a number of addMarkers");
+  return marked_[set].markers;
 }
 
 void Points::load(ByteReader& archive) {
@@ -75,6 +98,7 @@ void Points::load(ByteReader& archive) {
   std::vector<double> F0;
   double laidAt = 0.0;
   std::int64_t renewals = 0;
+  std::vector<std::vector<Vec3>> marked(marked_.size());
   archive(read.x, read.v, read.moment, F0, laidAt, renewals);
   const auto finite = [](const auto& values) {
     return std::ranges::all_of(values, [](const auto& value) { return std::isfinite(square(value)); });
@@ -85,6 +109,12 @@ void Points::load(ByteReader& archive) {
   if (!finite(read.x) || !finite(read.v) || !finite(read.moment) || !finite(F0) || !std::isfinite(laidAt))
     throw InputError("the state is not finite", options_.name, "take an older one");
   answers_.load(archive);
+  for (std::size_t set = 0; set < marked.size(); ++set) {
+    archive(marked[set]);
+    if (marked[set].size() != marked_[set].markers.X.size() || !finite(marked[set]))
+      throw InputError("the state has other markers", options_.name, "load it into the model that wrote it");
+  }
+  for (std::size_t set = 0; set < marked.size(); ++set) marked_[set].markers.X = std::move(marked[set]);
   carried_ = std::move(read);
   F0_ = std::move(F0);
   laidAt_ = laidAt;

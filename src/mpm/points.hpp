@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "anchors.hpp"
 #include "dovetail/mpm/point_solid.hpp"
 #include "transfer.hpp"
 
@@ -28,6 +29,8 @@ public:
   double beyondNodes() const override { return beyond_; }
   std::int64_t renewals() const override { return renewals_; }
   std::size_t memory() const override;
+  std::size_t addMarkers(std::span<const Vec3> x) override;
+  const Markers& markers(std::size_t set) const override;
 
   void addForces(const fem::Nodes& nodes, const fem::Instant& now, std::span<Vec3> f) override;
   double addForcesAndEnergy(const fem::Nodes& nodes, const fem::Instant& now, std::span<Vec3> f) override;
@@ -51,6 +54,12 @@ public:
   void load(ByteReader& archive) override;
 
 private:
+  /// A set of markers.
+  struct Marked {
+    Anchors anchors;
+    Markers markers;
+  };
+
   void ask(const fem::Nodes& nodes, const fem::Instant& now, fem::Wanted wanted);
   void findDeformation(std::span<const Vec3> u);
   void addAnswers(std::span<Vec3> f) const;
@@ -65,6 +74,7 @@ private:
   std::vector<double> volume_, F0_;
   GridRows rows_;
   std::vector<Vec3> v0_;  // of nodes, m/s
+  std::vector<Marked> marked_;
   double beyond_ = 0.0, laidAt_ = 0.0;
   std::int64_t renewals_ = 0;
   bool isNew_ = false;  // nothing was asked since the grid was laid out under points that had answered

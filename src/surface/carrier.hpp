@@ -58,6 +58,9 @@ public:
   virtual void turnWith(const dem::WallContacts& contacts, std::size_t contact,
                         std::vector<std::pair<int, double>>& points) const = 0;
 
+  /// From here on these nodes carry it: points at X, m, where they are at rest. @throws InputError on smooth patches
+  virtual void carry(std::vector<Vec3> X, cg::Projection map);
+
   virtual void save(ByteWriter& writer) const = 0;
   virtual void load(ByteReader& reader) = 0;
 };

@@ -81,6 +81,12 @@ public:
     for (std::size_t k = 0; k < 3; ++k) points.emplace_back(facet[k], rates[k]);
   }
 
+  void carry(std::vector<Vec3> X, cg::Projection map) override {
+    skin_.X = std::move(X);
+    skin_.localMap = std::move(map);
+    skin_.carrier = skin_.localMap;
+  }
+
   void save(ByteWriter& writer) const override {
     dem::archiveCandidates(writer, candidates_);
     writer(clearances_.whenListed, skin_.wall.x, skin_.wall.v);
@@ -129,6 +135,10 @@ private:
 };
 
 }  // namespace
+
+void Carrier::carry(std::vector<Vec3>, cg::Projection) {
+  throw InputError("smooth patches keep their nodes", "contacts on a surface", "take facets");
+}
 
 std::unique_ptr<Carrier> makeCarrier(Skin skin, dem::EdgeRule rule) {
   return std::make_unique<FlatCarrier>(std::move(skin), rule);

@@ -43,7 +43,7 @@ void checkFaces(std::span<const Vec3> X, std::span<const fem::Face> faces) {
     const std::string where = "face " + std::to_string(f);
     if (fem::cornersOf(faces[f].shape) < 3)
       throw InputError(std::string("it is a ") + fem::name(faces[f].shape) + " of a plane mesh", where,
-                       "couple particles to solids with faces");
+                       "make strips of lines (makeStrips)");
     const std::span<const int> nodes = nodesOf(faces[f]);
     for (int node : nodes)
       if (node < 0 || node >= static_cast<int>(X.size()))

@@ -27,13 +27,18 @@ std::int64_t newId() {
 
 SurfaceContact::SurfaceContact(coupling::SolidSide& side, SurfaceCoupler coupling,
                                std::shared_ptr<const dem::ContactLaws> laws, std::string name)
-    : Connector(side), coupling_(std::move(coupling)), laws_(std::move(laws)), name_(std::move(name)), id_(newId()) {
-  if (!laws_) throw InputError("there are no contact laws", name_, "give makeContactLaws(law)");
+    : SurfaceContact(side, std::move(laws), std::move(name), std::move(coupling)) {
   const auto nodes = static_cast<std::size_t>(coupling_.nodeCount());
   if (!side.model || side.nodes().X.size() != nodes)
     throw InputError("its surface belongs to a mesh of " + std::to_string(nodes) + " nodes", name_,
                      "make the skin from the nodes of the solid \"" + side.name + "\"");
   coupling_.requireFits(side.nodes().X);
+}
+
+SurfaceContact::SurfaceContact(coupling::SolidSide& side, std::shared_ptr<const dem::ContactLaws> laws,
+                               std::string name, SurfaceCoupler coupling)
+    : Connector(side), coupling_(std::move(coupling)), laws_(std::move(laws)), name_(std::move(name)), id_(newId()) {
+  if (!laws_) throw InputError("there are no contact laws", name_, "give makeContactLaws(law)");
   coupling_.check(*laws_);
 }
 
@@ -133,7 +138,10 @@ double SurfaceContact::lost() const {
 
 void SurfaceContact::surround(dem::Surroundings& around) {
   around.placed.push_back(
-      [this]() -> const dem::TriangulatedWall& { return coupling_.outline(side().nodes().u, side().nodes().v); });
+      [this]() -> const dem::TriangulatedWall& {
+        const Motion nodes = carrying();
+        return coupling_.outline(nodes.u, nodes.v);
+      });
 }
 
 double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Particles&) {
@@ -161,7 +169,7 @@ void SurfaceContact::findFacetContacts(dem::Model& m, const dem::Step& step, std
   if (company_.parts.empty()) return;
   tied_.assign(company_.overlaps.empty() ? 0 : m.particles.size(), 0);
   for (const coupling::Connector* overlap : company_.overlaps) overlap->markTied(tied_);
-  const fem::Nodes& nodes = side().nodes();
+  const Motion nodes = carrying();
   const ExchangeOptions options = exchangeOptions(m, step);
   naming(step, [&] {
     if (surface_) {
@@ -177,7 +185,7 @@ void SurfaceContact::findFacetContacts(dem::Model& m, const dem::Step& step, std
 void SurfaceContact::takeFacetContacts(dem::Model& m, const dem::Step& step,
                                        std::vector<dem::AnsweredContacts>& walls) {
   if (company_.parts.empty()) return;
-  const fem::Nodes& nodes = side().nodes();
+  const Motion nodes = carrying();
   const ExchangeOptions options = exchangeOptions(m, step);
   if (surface_)
     surface_->handOut(surfaceParts(), m.particles, nodes.u, nodes.v, options);
@@ -188,7 +196,7 @@ void SurfaceContact::takeFacetContacts(dem::Model& m, const dem::Step& step,
 
 void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
   if (company_.parts.empty()) return;
-  const fem::Nodes& nodes = side().nodes();
+  const Motion nodes = carrying();
   const ExchangeOptions options = exchangeOptions(m, step);
   naming(step, [&] {
     if (surface_) {
@@ -198,10 +206,12 @@ void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
       coupling_.bookWeights(options);
     }
   });
-  for (const SurfaceContact* part : company_.parts) {
-    const coupling::NodalLoad& load = part->coupling_.load();
-    for (int node : load.touched) part->side().load.add(node, load.force[static_cast<std::size_t>(node)]);
-  }
+  for (SurfaceContact* part : company_.parts) part->loadSide();
+}
+
+void SurfaceContact::loadSide() {
+  const coupling::NodalLoad& load = coupling_.load();
+  for (int node : load.touched) side().load.add(node, load.force[static_cast<std::size_t>(node)]);
 }
 
 void SurfaceContact::addDemand(const dem::Model& m, dem::ContactDemand& demand) const {
@@ -225,7 +235,8 @@ void SurfaceContact::addPartners(const dem::Model&, std::vector<dem::ImpactPartn
       {.name = '"' + name_ + '"',
        .laws = laws_.get(),
        .material = coupling_.wall().material,
-       .inverseMass = coupling_.largestMobility(side().inverseMasses(coupling::SolidSide::Forces::atOnePlace)),
+       .inverseMass = coupling_.largestMobility(
+           ofCarrying(side().inverseMasses(coupling::SolidSide::Forces::atOnePlace))),
        .speed = speed,
        .box = box,
        .of = side().model,

@@ -104,6 +104,17 @@ SurfaceCoupler::OwnCarrier& SurfaceCoupler::OwnCarrier::operator=(OwnCarrier oth
   return *this;
 }
 
+void SurfaceCoupler::carry(std::vector<Vec3> X, cg::Projection map) {
+  if (hasKernel(skin()) || map.rows() != carrier_->map().rows() || X.size() != carrier_->points().size())
+    throw InputError("its surface has a kernel, or other vertices", "surface coupling", "give each vertex a row");
+  carrier_->carry(std::move(X), std::move(map));
+  load_ = coupling::NodalLoad(static_cast<std::size_t>(carrier_->map().columns));
+  surfaceNodes_ = sortedUnique(carrier_->map().column);
+  gain_ = carrierGain(carrier_->map(), carrier_->offsets());
+  uBefore_.clear();
+  changesNodes_ = true;
+}
+
 dem::ContactWork SurfaceCoupler::exchange(dem::Particles& particles, std::span<const Vec3> u, std::span<const Vec3> v,
                                           const dem::ContactLaws& laws, double dt, const ExchangeOptions& options) {
   find(particles, u, v, laws.reach(), options);
@@ -230,7 +241,7 @@ void SurfaceCoupler::locate(const dem::Particles& particles, std::span<const Vec
 // Comparisons are written so that a NaN asks for a search, which then names the culprit.
 bool SurfaceCoupler::marginUsed(const dem::Particles& particles, std::span<const Vec3> u, double reach,
                                 const ExchangeOptions& options) {
-  if (builds_ == 0 || particles.revision != revision_ || reach != reachAtBuild_ ||
+  if (builds_ == 0 || nodesAtBuild_.size() != surfaceNodes_.size() || particles.revision != revision_ || reach != reachAtBuild_ ||
       !(dem::periodsOf(options.periodicity) == periodAtBuild_))
     return true;
   if (options.moves)
@@ -278,12 +289,14 @@ void SurfaceCoupler::requireFits(std::span<const Vec3> X) const {
   const std::vector<Vec3>& points = carrier_->skin() ? carrier_->skin()->X : carrier_->smooth()->X;
   const cg::Projection& map = carrier_->skin() ? carrier_->skin()->localMap : carrier_->map();
   const bool keepsPlaces = carrier_->skin() || carrier_->offsets().empty();
+  const bool isPlane = std::ranges::all_of(X, [&](const Vec3& x) { return x.z == X[0].z; });
   double size = 0.0, worst = 0.0;
   for (std::size_t p = 0; p < points.size() && keepsPlaces; ++p) {
     Vec3 off = points[p];
     const int row = static_cast<int>(p);
     for (std::size_t n = 0; n < map.rowColumns(row).size(); ++n)
       off -= map.rowWeights(row)[n] * X[static_cast<std::size_t>(map.rowColumns(row)[n])];
+    if (isPlane) off.z = 0.0;  // strips lie on both sides of the plane
     worst = std::max(worst, norm(off));
     size = std::max(size, norm(points[p] - points[0]));
   }
@@ -376,7 +389,8 @@ void SurfaceCoupler::load(ByteReader& reader) {
   dem::requireWhole(contacts_);
   for (const int facet : contacts_.facet)
     if (facet < 0 || static_cast<std::size_t>(facet) >= carrier_->wall().facets.size()) refuse();
-  if (builds_ != 0 && nodesAtBuild_.size() != surfaceNodes_.size()) refuse();
+  if (builds_ != 0 && !changesNodes_ && nodesAtBuild_.size() != surfaceNodes_.size()) refuse();
+  if (changesNodes_) uBefore_.clear();
   if (!uBefore_.empty() && uBefore_.size() != static_cast<std::size_t>(nodeCount())) refuse();
   transfer();
 }

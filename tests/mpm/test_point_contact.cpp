@@ -9,6 +9,9 @@
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/dem/laws/laws.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "dovetail/fem/mesh/mesh_places.hpp"
+#include "dovetail/mpm/face_contact.hpp"
+#include "dovetail/mpm/fill.hpp"
 #include "dovetail/mpm/point_contact.hpp"
 #include "random_points.hpp"
 
@@ -28,6 +31,7 @@ struct Case {
   Transfer transfer = Transfer::apic;
   double friction = 0.3;
   bool plane = true;
+  bool faces = false;  ///< in place of spheres
 };
 
 /// A block of 0.5 m that falls on loose grains at 3 m/s and drives some aside.
@@ -57,7 +61,13 @@ std::unique_ptr<Splash> splash(const Case& c) {
   if (c.plane)
     for (Vec3& x : run.grains.particles.x) x.z = 0.0;
   made->grains = run.grains.particles.size();
-  addSpheres(run.grains, side, made->points, {.radius = 0.5 * d});
+  if (c.faces) {
+    const fem::SolidMesh skin = facesOfBox(grid, {{}, {0.5, 0.5, c.plane ? 1.0 : 0.25}}, 2);
+    const std::size_t set = made->points->addMarkers(skin.X);
+    run.grains.terms.add(FaceContact(side, made->points, set, fem::faceSet(skin, "skin"), run.grains.laws));
+  } else {
+    addSpheres(run.grains, side, made->points, {.radius = 0.5 * d});
+  }
   run.start(c.fraction * 1e-4 / (c.stepping == Stepping::explicitSteps ? c.K : 1), {.stepsPerMacroStep = c.K});
   return made;
 }
@@ -89,10 +99,10 @@ Course fall(const Case& c, double duration = 0.06) {
 
 /// Spins included: points turn with half of the curl of the grid.
 TEST(PointContact, KeepsMomenta) {
-  for (const bool plane : {true, false})
+  for (const auto& [plane, faces] : std::vector<std::pair<bool, bool>>{{true, false}, {false, false}, {true, true}})
     for (const int K : {1, 4}) {
-      const Course explicitly = fall({.K = K, .plane = plane}),
-                   implicitly = fall({.stepping = Stepping::implicitSteps, .K = K, .plane = plane});
+      const Course explicitly = fall({.K = K, .plane = plane, .faces = faces}),
+                   implicitly = fall({.stepping = Stepping::implicitSteps, .K = K, .plane = plane, .faces = faces});
       EXPECT_GT(explicitly.renewals, 1);
       EXPECT_LE(explicitly.momentum, 1e-13);
       EXPECT_LE(explicitly.turning, 1e-12);
@@ -114,7 +124,10 @@ TEST(PointContact, KeepsTheBooks) {
                         {.K = 4},
                         {.transfer = Transfer::flip},
                         {.stepping = Stepping::implicitSteps},
-                        {.stepping = Stepping::implicitSteps, .K = 4}}) {
+                        {.stepping = Stepping::implicitSteps, .K = 4},
+                        {.faces = true},
+                        {.K = 4, .faces = true},
+                        {.stepping = Stepping::implicitSteps, .faces = true}}) {
     const double coarse = residual(c, 1.0), fine = residual(c, 0.5);
     EXPECT_LT(coarse, 6e-4);
     EXPECT_LT(fine, 0.4 * coarse);
@@ -123,8 +136,8 @@ TEST(PointContact, KeepsTheBooks) {
 
 TEST(PointContact, GoesOnFromAState) {
   for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps})
-    for (const int K : {1, 4}) {
-      const Case c{.stepping = stepping, .K = K};
+    for (const auto& [K, faces] : std::vector<std::pair<int, bool>>{{1, false}, {4, false}, {4, true}}) {
+      const Case c{.stepping = stepping, .K = K, .faces = faces};
       const auto whole = splash(c), broken = splash(c), again = splash(c);
       const std::int64_t half = std::llround(0.02 / whole->run.macroStep());
       whole->run.advance(half);
@@ -151,8 +164,11 @@ TEST(PointContact, GoesOnFromAState) {
 }
 
 TEST(PointContact, HasTheSameDigitsForAnyThreads) {
-  const std::vector<Vec3> one = onThreads(1, [] { return fall({}, 0.04).x; });
-  EXPECT_TRUE(onThreads(2, [] { return fall({}, 0.04).x; }) == one);
+  for (const bool faces : {false, true}) {
+    const auto run = [&] { return fall({.faces = faces}, 0.04).x; };
+    const std::vector<Vec3> one = onThreads(1, run);
+    EXPECT_TRUE(onThreads(2, run) == one);
+  }
 }
 
 /// A block that bounces on a wall, and one that bounces on it.
@@ -204,14 +220,24 @@ TEST(PointContact, BalancesWhatBordersGive) {
 
 /// Of a contact force there borders take a share, along them as across.
 TEST(PointContact, BalancesForcesNearBorders) {
-  for (const BorderKind kind : {BorderKind::symmetry, BorderKind::held}) {
+  for (const auto& [kind, faces] : std::vector<std::pair<BorderKind, bool>>{{BorderKind::symmetry, false},
+                                                                            {BorderKind::held, false},
+                                                                            {BorderKind::symmetry, true},
+                                                                            {BorderKind::held, true}}) {
     CoupledRun run;
     run.grains.laws = dem::makeContactLaws(dem::FrictionalLaw{{confined}, {0.8 * confined, 0.5}});
     dem::addParticle(run.grains.particles, {0.08, 0.62, 0.0}, {-2.0, -3.0, 0.0}, 0.1, dem::Mass{30.0});
-    const auto body = makePoints(block({}, {0.5, 0.5, 0.0}, spacing, true), elastic(youngs, poisson),
-                                 {.grid = {.spacing = 2.0 * spacing, .borders = {{.axis = 0, .kind = kind}, {}}}});
+    const GridOptions grid{.spacing = 2.0 * spacing, .borders = {{.axis = 0, .kind = kind}, {}}};
+    const auto body =
+        makePoints(block({}, {0.5, 0.5, 0.0}, spacing, true), elastic(youngs, poisson), {.grid = grid});
     auto& side = run.addSolid(std::make_unique<fem::Model>(makeModel(body)), {.name = "block"});
-    addSpheres(run.grains, side, body, {.radius = 0.5 * spacing});
+    if (faces) {
+      const fem::SolidMesh skin = facesOfBox(grid, {{}, {0.5, 0.5, 1.0}}, 2);
+      run.grains.terms.add(FaceContact(side, body, body->addMarkers(skin.X), fem::faceSet(skin, "y+"), run.grains.laws,
+                                       1.0, 0, {}, "contact of points"));
+    } else {
+      addSpheres(run.grains, side, body, {.radius = 0.5 * spacing});
+    }
     run.start(1e-4);
     const double moved = run.kineticEnergy();
     run.advance(600);
@@ -237,6 +263,9 @@ TEST(PointContact, IsTheOnlyConnectorOfPoints) {
   const auto made = splash({});
   made->run.grains.terms.add(std::make_unique<Keeps>(made->run.solid(0)));
   EXPECT_THROW(made->run.start(1e-5), InputError);
+  const auto twice = splash({.faces = true});
+  addSpheres(twice->run.grains, twice->run.solid(0), twice->points, {.radius = 0.5 * spacing});
+  EXPECT_THROW(twice->run.start(1e-5), InputError);
   const auto lagging = splash({});
   EXPECT_THROW(lagging->run.start(1e-5, {.lag = coupling::Lag::load}), InputError);
 }

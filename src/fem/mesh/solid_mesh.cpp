@@ -28,7 +28,12 @@ std::size_t SolidMesh::elementCount() const {
   return count;
 }
 
-int dimensionOf(const SolidMesh& mesh) { return mesh.groups.empty() ? 3 : dimensionOf(mesh.groups[0].shape); }
+int dimensionOf(const SolidMesh& mesh) {
+  if (!mesh.groups.empty()) return dimensionOf(mesh.groups[0].shape);
+  for (const auto& [name, faces] : mesh.faceSets)
+    if (!faces.empty()) return dimensionOf(faces[0].shape);
+  return 3;
+}
 
 const std::vector<int>& nodeSet(const SolidMesh& mesh, const std::string& wanted) {
   return findSet(mesh.nodeSets, wanted, "node");

@@ -140,14 +140,13 @@ void add(fem::SolidMesh& mesh, const NamedSet& set) {
 }
 
 struct Loaded {
-  fem::Model& model;
-  const fem::SolidMesh& mesh;
+  const LoadedFaces& body;
   const std::string& on;
   std::string name;
   const Scene& scene;
   const Solid& solid;
   ChangingParts& changing;
-  const std::vector<fem::Face>& faces() const { return fem::faceSet(mesh, on); }
+  const std::vector<fem::Face>& faces() const { return fem::faceSet(body.mesh, on); }
 };
 
 /// A number, which lets the load store energy, or a function; of a load that stages change, one that they exchange.
@@ -163,11 +162,11 @@ fem::Amplitude amplitudeOf(const Loaded& to, const Load& load, const TimeValue& 
 }
 
 /// Nodes that are held in all components throughout, ascending.
-std::vector<int> clampedIn(const Loaded& to) {
+std::vector<int> clampedIn(const fem::Model& model, const Solid& solid, const Scene& scene) {
   std::vector<int> nodes;
-  if (changesSupports(to.solid, to.scene)) return nodes;
-  for (std::size_t n = 0; n < to.model.nodes.fixed.size(); ++n)
-    if (to.model.nodes.fixed[n] == fem::allComponents) nodes.push_back(static_cast<int>(n));
+  if (changesSupports(solid, scene)) return nodes;
+  for (std::size_t n = 0; n < model.nodes.fixed.size(); ++n)
+    if (model.nodes.fixed[n] == fem::allComponents) nodes.push_back(static_cast<int>(n));
   return nodes;
 }
 
@@ -176,23 +175,23 @@ void add(const Loaded& to, const Load& all, const PressureLoad& load) {
     if (isChanged(all, to.solid, to.scene))
       throw InputError("a load of the place cannot change", "", "leave x, y and z out of it, or leave it as it is");
     const PlaceFunction pressure = fieldOf(load.pressure, to.scene);
-    to.model.add(load.follows ? fem::followingPressure(to.mesh, to.faces(), pressure, to.name)
-                              : fem::deadPressure(to.mesh, to.faces(), pressure, to.name));
+    to.body.add(load.follows ? fem::followingPressure(to.body.mesh, to.faces(), pressure, to.name)
+                              : fem::deadPressure(to.body.mesh, to.faces(), pressure, to.name));
     return;
   }
   const fem::Amplitude pressure = amplitudeOf(to, all, load.pressure, 0);
   if (load.follows)
-    to.model.add(fem::followingPressure(to.mesh, to.faces(), pressure, clampedIn(to), to.name));
+    to.body.add(fem::followingPressure(to.body.mesh, to.faces(), pressure, to.body.clamped, to.name));
   else
-    to.model.add(fem::deadPressure(to.mesh, to.faces(), pressure, to.name));
+    to.body.add(fem::deadPressure(to.body.mesh, to.faces(), pressure, to.name));
 }
 void add(const Loaded& to, const Load& all, const NodalLoad& load) {
-  const std::vector<int>& nodes = fem::nodeSet(to.mesh, to.on);
+  const std::vector<int>& nodes = fem::nodeSet(to.body.mesh, to.on);
   for (std::size_t c = 0; c < 3; ++c) {
     if (isConstant(load.force[c]) && load.force[c].number == 0.0 && !isChanged(all, to.solid, to.scene)) continue;
     Vec3 part;
     part[static_cast<int>(c)] = 1.0 / static_cast<double>(nodes.size());
-    to.model.add(fem::nodalForce(nodes, part, amplitudeOf(to, all, load.force[c], static_cast<int>(c)),
+    to.body.add(fem::nodalForce(nodes, part, amplitudeOf(to, all, load.force[c], static_cast<int>(c)),
                                  to.name + " along " + "xyz"[c]));
   }
 }
@@ -202,8 +201,8 @@ void add(const Loaded& to, const Load& all, const TractionLoad& load) {
       throw InputError("a load of the place cannot change", "", "leave x, y and z out of it, or leave it as it is");
     const std::array<PlaceFunction, 3> part{fieldOf(load.traction[0], to.scene), fieldOf(load.traction[1], to.scene),
                                             fieldOf(load.traction[2], to.scene)};
-    to.model.add(fem::deadTraction(
-        to.mesh, to.faces(),
+    to.body.add(fem::deadTraction(
+        to.body.mesh, to.faces(),
         [part](const Vec3& X, double t) {
           return Vec3{part[0](X, t), part[1](X, t), part[2](X, t)};
         },
@@ -214,7 +213,7 @@ void add(const Loaded& to, const Load& all, const TractionLoad& load) {
     if (isConstant(load.traction[c]) && load.traction[c].number == 0.0 && !isChanged(all, to.solid, to.scene)) continue;
     Vec3 direction;
     direction[static_cast<int>(c)] = 1.0;
-    to.model.add(fem::deadTraction(to.mesh, to.faces(), direction,
+    to.body.add(fem::deadTraction(to.body.mesh, to.faces(), direction,
                                    amplitudeOf(to, all, load.traction[c], static_cast<int>(c)),
                                    to.name + " along " + "xyz"[c]));
   }
@@ -223,6 +222,8 @@ void add(const Loaded& to, const Load& all, const TractionLoad& load) {
 /// Of the stiffest material behind some faces, Pa/m.
 double stiffestPenalty(const fem::SolidMesh& mesh, const std::vector<fem::Face>& faces, const Solid& solid,
                        const Built& built) {
+  if (mesh.groups.empty())  // of material points, which have one material
+    return fem::contactPenalty(mesh, faces, confinedModulusOf(solid.material, built));
   std::vector<char> isOnFace(mesh.X.size(), 0);
   for (const fem::Face& face : faces)
     for (int k = 0; k < fem::nodesOf(face.shape); ++k)
@@ -246,8 +247,8 @@ double stiffestPenalty(const fem::SolidMesh& mesh, const std::vector<fem::Face>&
   return largest;
 }
 
-void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std::size_t number, const Scene& scene,
-         const Built& built) {
+void add(const LoadedFaces& body, const Solid& solid, std::size_t number, const Scene& scene, const Built& built) {
+  const fem::SolidMesh& mesh = body.mesh;
   const SolidPlane& plane = solid.planes[number];
   if (norm(plane.normal) == 0.0)
     throw InputError("the normal has no length", "", "give it a direction, such as [0, 0, 1]");
@@ -265,7 +266,7 @@ void add(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, std:
       std::ranges::all_of(mesh.X, [&](const Vec3& X) { return dot(X - plane.point, plane.normal) < 0.0; }))
     throw InputError("all of \"" + solid.name + "\" lies behind the plane", "",
                      "turn its normal round, or move its point");
-  model.add(fem::makeContactPlane(mesh, faces, rigid, options));
+  body.add(fem::makeContactPlane(mesh, faces, rigid, options));
 }
 
 }  // namespace
@@ -286,16 +287,24 @@ void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& s
     for (SupportNow& one : supports) one.from = std::make_shared<const std::vector<Vec3>>(model.nodes.u);
   const auto jumps = putHolders(model, mesh, solid, scene, stepOf(*built.run), supports);
   built.notes.insert(built.notes.end(), jumps.begin(), jumps.end());
+  const LoadedFaces faces{mesh, clampedIn(model, solid, scene), [&](auto term) { model.add(std::move(term)); }};
+  addLoads(faces, solid, scene, built);
+  if (solid.massDamping > 0.0) model.add(fem::massDamping(solid.massDamping));
+  addPlanes(faces, solid, scene, built);
+}
+
+void addLoads(const LoadedFaces& body, const Solid& solid, const Scene& scene, Built& built) {
   for (std::size_t k = 0; k < solid.loads.size(); ++k)
     atPlace(solid.loads[k].where, [&] {
       const Load& load = solid.loads[k];
-      const Loaded to{model, mesh,  load.on,       "load " + std::to_string(k) + " on " + load.on,
-                      scene, solid, built.changing};
+      const Loaded to{body, load.on, "load " + std::to_string(k) + " on " + load.on, scene, solid, built.changing};
       std::visit([&](const auto& kind) { add(to, load, kind); }, load.kind);
     });
-  if (solid.massDamping > 0.0) model.add(fem::massDamping(solid.massDamping));
+}
+
+void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, const Built& built) {
   for (std::size_t k = 0; k < solid.planes.size(); ++k)
-    atPlace(solid.planes[k].where, [&] { add(model, mesh, solid, k, scene, built); });
+    atPlace(solid.planes[k].where, [&] { add(body, solid, k, scene, built); });
 }
 
 }  // namespace dovetail::scene

@@ -7,6 +7,7 @@
 #include "dovetail/arlequin/weights.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/mpm/face_contact.hpp"
 #include "dovetail/mpm/point_contact.hpp"
 #include "dovetail/surface/surface_contact.hpp"
 #include "parts.hpp"
@@ -200,25 +201,50 @@ void add(Built& built, std::size_t solid, const Coupling&, const Overlap& overla
   grains.terms.add(arlequin::makeArlequinCoupling(grains, mesh, weight, side, options));
 }
 
-void add(Built& built, std::size_t number, const Coupling& coupling, const PointSpheres& spheres, const Scene& scene) {
-  coupling::SolidSide& side = built.run->solid(number);
-  const auto& [filling, grid] = std::get<PointMesh>(scene.solids[number].mesh);
+std::shared_ptr<const mpm::PointSolid> pointsIn(const coupling::SolidSide& side) {
+  for (const auto& term : side.model->terms)
+    if (auto body = std::dynamic_pointer_cast<const mpm::PointSolid>(term)) return body;
+  return nullptr;
+}
+
+void requireAlone(const Coupling& coupling, const Scene& scene) {
   const auto same = [&](const Coupling& one) { return one.solid == coupling.solid; };
   if (std::ranges::count_if(scene.couplings, same) > 1)
     throw InputError("the points of \"" + coupling.solid + "\" have two couplings", "", "leave one of them out");
-  for (const auto& term : side.model->terms)
-    if (const auto body = std::dynamic_pointer_cast<const mpm::PointSolid>(term))
-      mpm::addSpheres(built.run->grains, side, body,
-                      {.radius = spheres.radius.value_or(0.5 * grid.spacing / filling.perAxis),
-                       .material = contactRow(scene, spheres.contactMaterial)});
 }
 
-/// Points have no faces, and meshes no points.
+void add(Built& built, std::size_t number, const Coupling& coupling, const PointSpheres& spheres, const Scene& scene) {
+  requireAlone(coupling, scene);
+  coupling::SolidSide& side = built.run->solid(number);
+  const auto& [filling, grid] = std::get<PointMesh>(scene.solids[number].mesh);
+  mpm::addSpheres(built.run->grains, side, pointsIn(side),
+                  {.radius = spheres.radius.value_or(0.5 * grid.spacing / filling.perAxis),
+                   .material = contactRow(scene, spheres.contactMaterial)});
+}
+
+/// On the faces of a body of points.
+void addOnFaces(Built& built, std::size_t number, const Coupling& coupling, const SurfaceContact& contact,
+                const Scene& scene) {
+  requireAlone(coupling, scene);
+  if (contact.spread || contact.smooth || contact.kernel.width.word.empty())
+    throw InputError("faces of material points are facets without a kernel", "",
+                     "leave \"transfer\", \"surface\" and the number of \"kernel\" out");
+  const PointFaces& faces = built.faces.at(coupling.solid);
+  coupling::SolidSide& side = built.run->solid(number);
+  built.run->grains.terms.add(mpm::FaceContact(
+      side, pointsIn(side), faces.set, fem::faceSet(faces.mesh, contact.on),
+      contact.contact ? makeLaws(*contact.contact) : built.run->grains.laws, faces.mesh.thickness,
+      contactRow(scene, contact.contactMaterial), {.edges = static_cast<dem::EdgeRule>(contact.edges)},
+      "grains on " + coupling.solid + " (" + contact.on + ")"));
+}
+
+/// Overlaps need elements, and meshes have no points.
 void requireFit(const Coupling& coupling, const Solid& solid) {
-  const bool points = std::holds_alternative<PointSpheres>(coupling.kind);
-  if (points == isOfPoints(solid)) return;
-  throw InputError(points ? "\"" + solid.name + "\" has a mesh" : "\"" + solid.name + "\" is made of material points",
-                   "", points ? "write \"type\": \"surface\", or \"overlap\"" : "write \"type\": \"points\"");
+  if (isOfPoints(solid) && std::holds_alternative<Overlap>(coupling.kind))
+    throw InputError("\"" + solid.name + "\" is made of material points", "",
+                     "write \"type\": \"points\", or \"surface\" for a body that keeps its faces");
+  if (!isOfPoints(solid) && std::holds_alternative<PointSpheres>(coupling.kind))
+    throw InputError("\"" + solid.name + "\" has a mesh", "", "write \"type\": \"surface\", or \"overlap\"");
 }
 
 }  // namespace
@@ -240,6 +266,8 @@ void addCouplings(Built& built, const Scene& scene) {
     atPlace(coupling.where, [&] {
       const std::size_t solid = solidNamed(coupling.solid, *built.run);
       requireFit(coupling, scene.solids[solid]);
+      const auto* const contact = std::get_if<SurfaceContact>(&coupling.kind);
+      if (contact && isOfPoints(scene.solids[solid])) return addOnFaces(built, solid, coupling, *contact, scene);
       std::visit([&](const auto& kind) { add(built, solid, coupling, kind, scene); }, coupling.kind);
     });
 }

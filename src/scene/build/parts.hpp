@@ -98,6 +98,14 @@ std::size_t countOfGrains(const dem::Particles& particles);
 bool hasStatics(const Scene& scene);
 /// Puts supports, loads, ties and planes on a solid.
 void addBoundaries(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Scene& scene, Built& built);
+/// Faces that loads and planes act on, with the nodes of them that are held throughout, ascending.
+struct LoadedFaces {
+  const fem::SolidMesh& mesh;
+  std::vector<int> clamped;
+  std::function<void(std::shared_ptr<fem::Term>)> add;
+};
+void addLoads(const LoadedFaces& body, const Solid& solid, const Scene& scene, Built& built);
+void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, const Built& built);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
 

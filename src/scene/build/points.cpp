@@ -161,9 +161,10 @@ void requireNoElements(const Solid& solid, const Scene& scene) {
         Given{!solid.regions.empty(), "regions", "give each material a solid, or take a mesh"},
         Given{!solid.sets.empty(), "sets", "leave them out; \"borders\" of \"grid\" hold the body"},
         Given{!solid.supports.empty(), "supports", "give \"grid\" a border of the kind held or symmetry"},
-        Given{!solid.loads.empty(), "loads", "take a mesh, or let grains press on it"},
-        Given{!solid.ties.empty(), "ties", "leave them out"},
-        Given{!solid.planes.empty(), "planes", "give \"grid\" borders"}})
+        Given{std::ranges::any_of(solid.loads,
+                                  [](const Load& load) { return std::holds_alternative<NodalLoad>(load.kind); }),
+              "forces on nodes", "give a pressure or a traction on faces"},
+        Given{!solid.ties.empty(), "ties", "leave them out"}})
     if (one.isGiven)
       throw InputError(std::string("material points have no elements, and ") + one.what + " no meaning", "",
                        one.remedy);
@@ -177,6 +178,36 @@ void requireNoElements(const Solid& solid, const Scene& scene) {
       if (change.solid == solid.name)
         throw InputError("material points have no supports", change.where, "leave the change out");
   }
+}
+
+// ---- their faces
+
+bool usesFaces(const Solid& solid, const Scene& scene) {
+  return !solid.loads.empty() || !solid.planes.empty() || std::ranges::any_of(scene.couplings, [&](const Coupling& one) {
+    return one.solid == solid.name && std::holds_alternative<SurfaceContact>(one.kind);
+  });
+}
+
+PointFaces& addFaces(Built& built, const Solid& solid, const mpm::GridOptions& grid, mpm::PointSolid& body) {
+  const auto& filling = std::get<PointMesh>(solid.mesh).points;
+  const auto* const box = std::get_if<PointBox>(&filling.from);
+  if (!box)
+    throw InputError("faces of material points are those of a box, and \"" + solid.name + "\" is none", solid.where,
+                     "fill a \"box\", or take the coupling \"points\" in place of loads, planes and surfaces");
+  PointFaces faces{mpm::facesOfBox(grid, box->box, filling.perAxis)};
+  faces.set = body.addMarkers(faces.mesh.X);
+  return built.faces.emplace(solid.name, std::move(faces)).first->second;
+}
+
+void addOnFaces(fem::Model& model, const std::shared_ptr<mpm::PointSolid>& body, const mpm::GridOptions& grid,
+                const Solid& solid, const Scene& scene, Built& built) {
+  if (!usesFaces(solid, scene)) return;
+  const PointFaces& faces = addFaces(built, solid, grid, *body);
+  const LoadedFaces loaded{faces.mesh, {}, [&](auto term) {
+                             model.add(mpm::onMarkers(body, faces.set, std::move(term)));
+                           }};
+  addLoads(loaded, solid, scene, built);
+  addPlanes(loaded, solid, scene, built);
 }
 
 // ---- what they are of
@@ -219,6 +250,7 @@ std::unique_ptr<fem::Model> makePoints(const Solid& solid, const Scene& scene, B
   else if (solid.gravity && norm(scene.gravity) > 0.0)
     model->add(mpm::gravity(body, scene.gravity));
   if (solid.massDamping > 0.0) model->add(fem::massDamping(solid.massDamping));
+  addOnFaces(*model, body, options.grid, solid, scene, built);
   built.meshes.emplace_back().X = points.x;
   built.supports.emplace_back();
   return model;

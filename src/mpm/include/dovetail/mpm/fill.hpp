@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/geometry/box.hpp"
 #include "dovetail/mpm/point_solid.hpp"
 
@@ -12,6 +13,10 @@ namespace dovetail::mpm {
 /// numbers let them. In the plane at z = 0, the extent along z being the thickness.
 /// @throws InputError for a grid that is not valid, perAxis < 1, or a box without volume
 MaterialPoints fillBox(const GridOptions& grid, const geometry::Box& box, int perAxis, const Vec3& velocity = {});
+
+/// The faces of the parts that are those of the box, as a mesh without elements: places for markers, face sets "x-" …
+/// "z+" and "skin", in the plane lines with the thickness of the box. @throws InputError as fillBox
+fem::SolidMesh facesOfBox(const GridOptions& grid, const geometry::Box& box, int perAxis);
 
 /// In the middle of cubes (squares) of the spacing over `perAxis`, which begin at the grid's origin, where `inside`
 /// says so within a box. They share the volume in equal parts.

@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "dovetail/fem/laws/field_answers.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "dovetail/mpm/grid.hpp"
+#include "dovetail/mpm/markers.hpp"
 
 namespace dovetail::mpm {
 
@@ -54,6 +56,11 @@ public:
   /// Kinetic energy that velocities of points have beyond those of nodes, J.
   virtual double beyondNodes() const = 0;
   virtual std::int64_t renewals() const = 0;
+  /// Places that go with the body, on its faces at the start, m. @return number of the set
+  /// @throws InputError naming one that is farther than the spacing from every point, or after a renewal
+  virtual std::size_t addMarkers(std::span<const Vec3> x) = 0;
+  /// On the present grid. @throws InputError for a set that does not exist
+  virtual const Markers& markers(std::size_t set) const = 0;
   /// Bytes.
   virtual std::size_t memory() const = 0;
 };

@@ -46,9 +46,16 @@ struct SupportNow {
 };
 
 /// A run, and data on its parts.
+/// Faces of a solid of material points: places of a set of markers.
+struct PointFaces {
+  fem::SolidMesh mesh;  ///< without elements
+  std::size_t set = 0;
+};
+
 struct Built {
   std::unique_ptr<coupling::CoupledRun> run;
   std::vector<fem::SolidMesh> meshes;                  ///< of the solids, in their order
+  std::map<std::string, PointFaces> faces;             ///< by solids of points whose faces something acts on
   std::map<std::string, std::vector<rve::Rve>> cells;  ///< of grains, by their names, as prepared
   std::vector<WallParts> walls;                        ///< of the scene's walls, in their order
   std::vector<std::vector<SupportNow>> supports;       ///< of the solids, in their order

@@ -21,7 +21,7 @@ namespace dovetail::surface {
 /// first of them in the model finds the contacts of all, one per place also where parts meet, and owns the data common
 /// to all. In an overlap of the same solid contacts act with the solid's weight, and tied particles have no contact
 /// with the surface. A smooth surface cannot be a part, and must not touch another.
-class SurfaceContact final : public coupling::Connector {
+class SurfaceContact : public coupling::Connector {
 public:
   /// @param coupling  on the skin, or the smooth surface, of side's mesh
   /// @param laws      between particles and surface; skin.wall.material is the surface's row in their table
@@ -50,6 +50,23 @@ public:
   void addContacts(const dem::Model& m, dem::ContactSample& sample) const override;
   void save(ByteWriter& writer) const override;
   void load(ByteReader& reader) override;
+
+protected:
+  /// On a surface whose nodes are not simply those of the solid: see the virtual calls below.
+  SurfaceContact(coupling::SolidSide& side, std::shared_ptr<const dem::ContactLaws> laws, std::string name,
+                 SurfaceCoupler coupling);
+
+  /// Of what carries the surface.
+  struct Motion {
+    std::span<const Vec3> u, v;  ///< m, m/s
+  };
+  /// Now; of the solid's nodes unless told otherwise.
+  virtual Motion carrying() { return {side().nodes().u, side().nodes().v}; }
+  /// Adds what the exchange has put on the nodes that carry the surface to the side.
+  virtual void loadSide();
+  /// Values of the solid's nodes at those that carry the surface.
+  virtual std::vector<double> ofCarrying(std::vector<double> ofNodes) const { return ofNodes; }
+  SurfaceCoupler& coupler() { return coupling_; }
 
 private:
   /// The terms of a model that have a part of the solid's surface or share its volume. Copies and moved objects find

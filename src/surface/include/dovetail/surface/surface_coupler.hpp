@@ -67,6 +67,13 @@ public:
   /// is spread by the kernel at the contact point. Forces still balance; power does not (see wallWork).
   void spreadLoad(SpreadLoad spread) { spread_ = std::make_shared<SpreadLoad>(std::move(spread)); }
 
+  /// From here on other nodes carry the facets: vertices at X, m, while u = 0, vertices × nodes in `map`. Contacts stay.
+  /// A state fits any nodes then: carry() those of the state after load().
+  /// @throws InputError for a map of another size, on smooth patches or a skin with a kernel
+  void carry(std::vector<Vec3> X, cg::Projection map);
+  /// Candidates are found anew in the next exchange: u has another origin.
+  void searchAnew() { nodesAtBuild_.clear(); }
+
   /// Places the surface, finds contacts, adds their forces to the particles, and sets load() to the reaction on the
   /// nodes.
   /// @param u, v  displacement, m, and velocity, m/s, of all nodes of the solid
@@ -184,6 +191,7 @@ private:
   ContactFractions fractions_;
   std::vector<int> sunk_;          // particles whose centres were inside at the last evaluation, ascending
   std::vector<int> surfaceNodes_;  // that carry the surface
+  bool changesNodes_ = false;      // carry() has been called
   double gain_;
 
   // What candidates were found for.

@@ -70,7 +70,7 @@ struct SolidMesh {
   std::size_t elementCount() const;
 };
 
-/// 3, or 2 for plane strain.
+/// 3, or 2 for plane strain; of a mesh without elements that of its faces.
 int dimensionOf(const SolidMesh& mesh);
 
 /// A box of equal cells, with node and face sets "x-" … "z+" and "skin". Tetrahedra: six per brick cell. Plane cells

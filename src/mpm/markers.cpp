@@ -1,0 +1,117 @@
+#include "dovetail/mpm/markers.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "anchors.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/finite.hpp"
+
+namespace dovetail::mpm {
+
+std::vector<Vec3> withImages(const Markers& markers, std::span<const Vec3> nodal) {
+  std::vector<Vec3> all(nodal.begin(), nodal.end());
+  for (const auto& [node, flip] : markers.images) all.push_back(flipped(nodal[static_cast<std::size_t>(node)], flip));
+  return all;
+}
+
+std::vector<Vec3> valuesAt(const Markers& markers, std::span<const Vec3> nodal) {
+  std::vector<Vec3> values(markers.X.size());
+  cg::apply(markers.map, withImages(markers, nodal), values);
+  return values;
+}
+
+void addTransposed(const Markers& markers, std::span<const Vec3> values, std::span<Vec3> nodal) {
+  std::vector<Vec3> all(static_cast<std::size_t>(markers.map.columns));
+  cg::applyTransposed(markers.map, values, all);
+  const std::size_t nodes = markers.nodes();
+  for (std::size_t n = 0; n < nodes; ++n) nodal[n] += all[n];
+  for (std::size_t k = 0; k < markers.images.size(); ++k) {
+    const auto& [node, flip] = markers.images[k];
+    nodal[static_cast<std::size_t>(node)] += flipped(all[nodes + k], flip);
+  }
+}
+
+namespace detail {
+
+namespace {
+
+constexpr double hardlyFarther = 1.1;
+
+/// Points by cubes of the spacing.
+class Cubes {
+public:
+  Cubes(double edge, std::span<const Vec3> x) : edge_(edge), x_(x) {
+    for (std::size_t p = 0; p < x.size(); ++p) points_[cubeOf(x[p])].push_back(p);
+  }
+  /// Calls visit(point, distance) for those in the cubes around, which hold all within an edge.
+  template <class Visit>
+  void near(const Vec3& place, Visit&& visit) const {
+    const Cube centre = cubeOf(place);
+    for (int k = -1; k <= 1; ++k)
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i)
+          if (const auto found = points_.find({centre[0] + i, centre[1] + j, centre[2] + k}); found != points_.end())
+            for (const std::size_t p : found->second) visit(p, norm(x_[p] - place));
+  }
+
+private:
+  using Cube = std::array<long, 3>;
+  Cube cubeOf(const Vec3& x) const {
+    return {std::lround(x.x / edge_), std::lround(x.y / edge_), std::lround(x.z / edge_)};
+  }
+  double edge_;
+  std::span<const Vec3> x_;
+  std::map<Cube, std::vector<std::size_t>> points_;
+};
+
+}  // namespace
+
+Anchors nearestPoints(const GridOptions& grid, std::span<const Vec3> points, std::span<const Vec3> markers,
+                      const std::string& name) {
+  const Cubes cubes(grid.spacing, points);
+  Anchors anchors;
+  for (std::size_t m = 0; m < markers.size(); ++m) {
+    double nearest = grid.spacing;
+    if (isFinite(markers[m])) cubes.near(markers[m], [&](std::size_t, double far) { nearest = std::min(nearest, far); });
+    if (!(nearest < grid.spacing))
+      throw InputError("it is not finite, or farther than the spacing of the grid from every point",
+                       "marker " + std::to_string(m) + " of \"" + name + "\"", "put markers on the faces of the body");
+    cubes.near(markers[m], [&](std::size_t p, double far) {
+      if (far <= hardlyFarther * nearest) anchors.point.push_back(p);
+    });
+    anchors.first.push_back(anchors.point.size());
+  }
+  return anchors;
+}
+
+void findMap(const GridRows& rows, const Anchors& anchors, std::span<const Vec3> x, Markers& markers) {
+  const auto nodes = static_cast<int>(rows.nodes());
+  std::map<std::pair<int, std::uint8_t>, int> columnOf;
+  markers.images.clear();
+  std::vector<cg::ProjectionRow> map(markers.X.size());
+  for (std::size_t m = 0; m < map.size(); ++m) {
+    const std::size_t first = anchors.first[m], end = anchors.first[m + 1];
+    for (std::size_t k = first; k < end; ++k) {
+      const std::size_t p = anchors.point[k], entry = rows.perPoint * static_cast<std::size_t>(rows.cell[p]);
+      const Vec3 arm = markers.X[m] - x[p];
+      for (std::size_t a = 0; a < rows.perPoint; ++a) {
+        const double weight = rows.weight[rows.perPoint * p + a] + dot(rows.slope[rows.perPoint * p + a], arm);
+        int column = rows.node[entry + a];
+        if (const std::uint8_t flip = rows.flip[entry + a]; flip != 0) {
+          const auto [place, isNew] =
+              columnOf.try_emplace({column, flip}, nodes + static_cast<int>(markers.images.size()));
+          if (isNew) markers.images.push_back({column, flip});
+          column = place->second;
+        }
+        map[m].emplace_back(column, weight / static_cast<double>(end - first));
+      }
+    }
+  }
+  markers.map = cg::fromRows(nodes + static_cast<int>(markers.images.size()), map);
+}
+
+}  // namespace detail
+
+}  // namespace dovetail::mpm
