@@ -248,7 +248,7 @@ void CoupledRun::Impl::requireKept(Lag lag) const {
   for (const auto* connector : grains.terms.all<Connector>())
     if (fem::ownsNodes(*connector->side().model) && !connector->followsNodes())
       throw InputError("\"" + connector->side().name + "\" is made of material points, whose grid is renewed",
-                       connector->name(), "couple it by mpm::PointContact");
+                       connector->name(), "couple it by mpm::PointContact or mpm::FaceContact");
   for (const auto& solid : solids)
     if (lag != Lag::none && fem::ownsNodes(*solid->side.model))
       throw InputError("a staggered run knows no material points", "solid \"" + solid->side.name + "\"",

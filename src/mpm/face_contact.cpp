@@ -90,14 +90,23 @@ void FaceContact::addForces(dem::Model& m, const dem::Step& step) {
   ofBorders_ = {};
   SurfaceContact::addForces(m, step);
   if (markers().images.empty()) return;
+  const Momenta all = onSolid({});
+  ofBorders_.linear -= all.linear;
+  ofBorders_.angular -= all.angular;
+}
+
+/// With what borders take of it.
+Momenta FaceContact::onSolid(const Vec3& about) const {
   const dem::WallContacts& contacts = coupling().contacts();
+  Momenta sum;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     const geometry::Facet& facet = coupling().wall().facets[contacts.facet[c]];
     Vec3 place;
     for (std::size_t k = 0; k < 3; ++k) place += contacts.weight[c][k] * coupling().wall().x[facet[k]];
-    ofBorders_.add(place, contacts.force[c]);
-    if (!contacts.couple.empty()) ofBorders_.angular += contacts.couple[c];
+    sum.add(place - about, -1.0 * contacts.force[c]);
+    if (!contacts.couple.empty()) sum.angular -= contacts.couple[c];
   }
+  return sum;
 }
 
 void FaceContact::addOutside(const dem::Model&, Momenta& force, Momenta&) const { force += ofBorders_; }

@@ -8,11 +8,22 @@ namespace dovetail::mpm {
 
 namespace {
 
-class MarkerTerm final : public fem::Term {
+class OnMarkers final : public MarkerTerm {
 public:
-  MarkerTerm(std::shared_ptr<const PointSolid> points, std::size_t set, std::shared_ptr<fem::Term> term)
+  OnMarkers(std::shared_ptr<const PointSolid> points, std::size_t set, std::shared_ptr<fem::Term> term)
       : points_(std::move(points)), set_(set), term_(std::move(term)) {
     nodes_.X = markers().X;
+  }
+
+  const fem::Term& term() const override { return *term_; }
+  fem::Nodes seen(const fem::Nodes& nodes) const override {
+    fem::Nodes all;
+    all.X = nodes_.X;
+    all.u = valuesAt(markers(), nodes.u);
+    all.v = valuesAt(markers(), nodes.v);
+    for (std::size_t m = 0; m < all.X.size(); ++m) all.u[m] += markers().X[m] - all.X[m];
+    all.f.assign(all.X.size(), {});
+    return all;
   }
 
   std::string name() const override { return term_->name(); }
@@ -57,12 +68,7 @@ public:
 private:
   const Markers& markers() const { return points_->markers(set_); }
 
-  void place(const fem::Nodes& nodes) {
-    nodes_.u = valuesAt(markers(), nodes.u);
-    for (std::size_t m = 0; m < nodes_.X.size(); ++m) nodes_.u[m] += markers().X[m] - nodes_.X[m];
-    nodes_.v = valuesAt(markers(), nodes.v);
-    nodes_.f.assign(nodes_.X.size(), {});
-  }
+  void place(const fem::Nodes& nodes) { nodes_ = seen(nodes); }
 
   linalg::NodePairs pairs() const {
     linalg::MatrixPattern pattern(nodes_.X.size());
@@ -130,11 +136,11 @@ private:
 
 }  // namespace
 
-std::shared_ptr<fem::Term> onMarkers(std::shared_ptr<const PointSolid> points, std::size_t set,
+std::shared_ptr<MarkerTerm> onMarkers(std::shared_ptr<const PointSolid> points, std::size_t set,
                                      std::shared_ptr<fem::Term> term) {
   if (points == nullptr || term == nullptr)
     throw InputError("there are no points, or no term", "mpm::onMarkers", "give those of makePoints, and a load");
-  return std::make_shared<MarkerTerm>(std::move(points), set, std::move(term));
+  return std::make_shared<OnMarkers>(std::move(points), set, std::move(term));
 }
 
 }  // namespace dovetail::mpm

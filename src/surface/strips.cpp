@@ -1,6 +1,7 @@
 // Faces of plane meshes as strips.
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,14 @@ void requireLines(std::span<const Vec3> X, std::span<const fem::Face> lines) {
   }
 }
 
+/// Whether the lines go all the way round: every end is one of two.
+bool isLoop(std::span<const fem::Face> lines) {
+  std::map<int, int> ends;
+  for (const fem::Face& line : lines)
+    for (const int node : {line.node[0], line.node[1]}) ++ends[node];
+  return std::ranges::all_of(ends, [](const auto& end) { return end.second == 2; });
+}
+
 }  // namespace
 
 Skin makeStrips(std::span<const Vec3> X, std::span<const fem::Face> lines, double thickness, double sharpAngle) {
@@ -59,6 +68,7 @@ Skin makeStrips(std::span<const Vec3> X, std::span<const fem::Face> lines, doubl
   Skin skin = makeSkin(both, quads, QuadSplit::four, sharpAngle);
   skin.localMap = cg::product(skin.localMap, twice(nodes));
   skin.carrier = skin.localMap;
+  skin.wall.oneSided = isLoop(lines);
   return skin;
 }
 

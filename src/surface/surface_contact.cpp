@@ -209,6 +209,17 @@ void SurfaceContact::addForces(dem::Model& m, const dem::Step& step) {
   for (SurfaceContact* part : company_.parts) part->loadSide();
 }
 
+Momenta SurfaceContact::onSolid(const Vec3& about) const {
+  const fem::Nodes& nodes = side().nodes();
+  const coupling::NodalLoad& load = coupling_.load();
+  Momenta sum;
+  for (const int node : load.touched) {
+    const auto n = static_cast<std::size_t>(node);
+    sum.add(nodes.X[n] + nodes.u[n] - about, load.force[n]);
+  }
+  return sum;
+}
+
 void SurfaceContact::loadSide() {
   const coupling::NodalLoad& load = coupling_.load();
   for (int node : load.touched) side().load.add(node, load.force[static_cast<std::size_t>(node)]);

@@ -94,11 +94,16 @@ TEST(ScenePoints, FillClosedSurfacesAndComeFromFiles) {
 TEST(ScenePoints, RefuseWhatNeedsElements) {
   const auto refused = [](const std::string& more) { return refusalOf(sceneOf(body(box, plane, law + more))); };
   expectParts(refused(R"(, "supports": [{"on": "y-"}])"), {"solids.0", "supports", "held or symmetry"});
-  expectParts(refused(R"(, "loads": [{"on": "y+", "type": "pressure", "pressure": 1}])"), {"solids.0", "loads"});
+  expectParts(refused(R"(, "loads": [{"on": "y+", "type": "force", "force": [1, 0, 0]}])"),
+              {"solids.0", "forces on nodes", "pressure"});
+  expectParts(refused(R"(, "loads": [{"on": "z+", "type": "pressure", "pressure": 1}])"), {"solids.0.loads.0", "z+"});
   expectParts(refused(R"(, "formulation": "enhanced")"), {"formulation"});
   expectParts(refused(R"(, "gradient": {"modulus": 1})"), {"gradient"});
   expectParts(refused(R"(, "consistent_mass": 1)"), {"consistent mass"});
-  expectParts(refused(R"(, "planes": [{"point": [0, 0, 0], "normal": [0, 1, 0]}])"), {"planes"});
+  expectParts(refusalOf(sceneOf(body(R"("from": "cylinder", "point": [0, 1, 0], "axis": [0, 0, 1], "radius": 0.2, )"
+                                     R"("length": 0.3)",
+                                     plane, law + R"(, "planes": [{"point": [0, 0, 0], "normal": [0, 1, 0]}])"))),
+              {"solids.0", "faces of material points are those of a box"});
   expectParts(refused(R"(, "sets": [{"name": "a", "place": "side", "side": "y-"}])"), {"sets"});
   expectParts(refused(R"(, "linear_solver": "direct")"), {"linear_solver"});
   expectParts(refusalOf(sceneOf(body(box, plane + R"(, "borders": [{"side": "y-", "at": 0.05}])"))),
@@ -200,13 +205,13 @@ INSTANTIATE_TEST_SUITE_P(All, FallingPoints,
                                          std::pair{R"(, "damping": 5)", R"("dt": 1e-4, "per_macro_step": 2)"}));
 
 /// A ball of points falls on a bead that lies on a floor.
-Scene onBead(const std::string& coupling) {
+Scene onBead(const std::string& coupling,
+             const std::string& filling = R"("from": "sphere", "centre": [0, 0, 0.1], "radius": 0.05)") {
   return sceneFromText(R"({"gravity": [0, 0, -9.81],
     "contact": {"law": "linear", "stiffness": 2000, "restitution": 1, "friction": 0.3},
     "particles": [{"from": "list", "density": 1000, "spheres": [{"at": [0, 0, 0.02], "radius": 0.02}]}],
     "walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1], "name": "floor"}],)" +
-                           body(R"("from": "sphere", "centre": [0, 0, 0.1], "radius": 0.05)",
-                                R"("spacing": 0.02, "transfer": "apic")", R"("velocity": [0, 0, -1], )" + law) +
+                           body(filling, R"("spacing": 0.02, "transfer": "apic")", R"("velocity": [0, 0, -1], )" + law) +
                            R"("couplings": [)" + coupling + R"(],
     "steps": {"dt": 2e-5}, "stages": [{"do": "run", "time": 0.1}],
     "output": {"series": 0.01, "frames": 0.01, "probes": [{"name": "bead", "of": "grain", "at": [0, 0, 0.1]},
@@ -235,10 +240,75 @@ TEST(ScenePoints, MeetGrainsAndWalls) {
   for (const Vec3& x : pointsIn(built).places(built.run->solid(0).nodes())) EXPECT_GT(x.z, 0.0);
 }
 
+const std::string block = R"("from": "box", "box": [[-0.04, -0.04, 0.06], [0.04, 0.04, 0.12]])";
+
+/// Of a body that keeps its faces, whatever the grid; on with the same bytes from a state halfway.
+TEST(ScenePoints, MeetGrainsWithTheirFaces) {
+  const Scene scene = onBead(R"({"type": "surface", "solid": "snow"})", block);
+  const auto run = [&](int threads, std::int64_t steps, const std::vector<char>& from) {
+    return onThreads(threads, [&] {
+      Built built = started(scene);
+      const double joules = built.run->ledger().stored();
+      if (!from.empty()) built.run->load(from);
+      built.run->advance(steps);
+      EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-2 * joules);
+      EXPECT_LT(norm(built.run->totals().residual.linear), 1e-9 * built.run->totals().turnedOver);
+      EXPECT_GT(built.run->totals().ontoSolids.z, 0.01);  // kg m/s: the bead pushes
+      EXPECT_GT(pointsIn(built).renewals(), 1);
+      return built.run->save();
+    });
+  };
+  const std::vector<char> halfway = run(1, 2000, {});
+  EXPECT_EQ(run(1, 3000, {}), run(3, 1000, halfway));
+}
+
+/// A column between frictionless borders under a pressure on its top, in load steps.
+TEST(ScenePoints, BearPressureOnTheirFaces) {
+  const Scene scene = sceneFromText(
+      "{" +
+          body(box, plane + R"(, "borders": [{"side": "y-", "at": 0}, {"side": "x-", "at": 0},
+                 {"side": "x+", "at": 0.2}])",
+               law + R"(, "loads": [{"on": "y+", "type": "pressure", "pressure": 100}])") +
+          R"("steps": {"safety": 0.8}, "stages": [{"do": "statics", "load_steps": 2, "time": 1}]})",
+      "s.json", "/");
+  Built built = started(scene);
+  for (int step = 0; step < 2; ++step) built.run->loadStep(step, 2, 0.0);
+  const double confined = 1e5 * 0.7 / (1.3 * 0.4);
+  const std::vector<Vec3> u = displacementsOf(pointsIn(built), built.run->solid(0).nodes());
+  for (std::size_t p = 0; p < u.size(); ++p)
+    EXPECT_NEAR(u[p].y, -100.0 / confined * built.meshes[0].X[p].y, 0.01 * 100.0 / confined * 0.4);
+}
+
+/// Falls on a plane in place of a border, and leaves it.
+TEST(ScenePoints, BounceOnPlanes) {
+  const Scene scene = sceneFromText(
+      "{" +
+          body(R"("from": "box", "box": [[0, 0.02, 0], [0.2, 0.42, 0.05]])", plane + R"(, "transfer": "apic")",
+               R"("velocity": [0.3, -1, 0], )" + law +
+                   R"(, "planes": [{"on": "y-", "point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.3}])") +
+          R"("steps": {"dt": 1e-4}, "stages": [{"do": "run", "time": 0.2}]})",
+      "s.json", "/");
+  Built built = started(scene);
+  const double joules = built.run->kineticEnergy();
+  built.run->advance(2000);
+  EXPECT_GT(pointsIn(built).renewals(), 2);
+  EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-2 * joules);
+  const std::vector<Vec3> v = velocitiesOf(pointsIn(built), built.run->solid(0).nodes());
+  Vec3 mean;
+  for (const Vec3& one : v) mean += 1.0 / static_cast<double>(v.size()) * one;
+  EXPECT_GT(mean.y, 0.2);
+  EXPECT_LT(mean.x, 0.25);  // friction
+  for (const Vec3& x : pointsIn(built).places(built.run->solid(0).nodes())) EXPECT_GT(x.y, 0.0);
+}
+
 TEST(ScenePoints, RefuseCouplingsOfMeshes) {
-  for (const char* const type : {R"("surface")", R"("overlap", "solid_border": 0, "particle_border": 1)"})
-    expectParts(refusalOf(onBead(std::string(R"({"solid": "snow", "type": )") + type + "}")),
-                {"couplings.0", "made of material points", "\"type\": \"points\""});
+  expectParts(
+      refusalOf(onBead(R"({"solid": "snow", "type": "overlap", "solid_border": 0, "particle_border": 1})")),
+      {"couplings.0", "made of material points", "\"type\": \"points\""});
+  expectParts(refusalOf(onBead(R"({"solid": "snow", "type": "surface"})")),
+              {"solids.0", "faces of material points are those of a box", "points"});
+  expectParts(refusalOf(onBead(R"({"solid": "snow", "type": "surface", "kernel": 0.01})", block)),
+              {"couplings.0", "without a kernel"});
   const std::string points = R"({"type": "points", "solid": "snow"})";
   expectParts(refusalOf(onBead(points + ", " + points)), {"couplings.0", "two couplings"});
   expectParts(

@@ -10,6 +10,7 @@
 #include "dovetail/fem/mesh/mesh_places.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/mpm/markers.hpp"
 #include "parts.hpp"
 #include "supports.hpp"
 #include "time_functions.hpp"
@@ -300,6 +301,16 @@ void addLoads(const LoadedFaces& body, const Solid& solid, const Scene& scene, B
       const Loaded to{body, load.on, "load " + std::to_string(k) + " on " + load.on, scene, solid, built.changing};
       std::visit([&](const auto& kind) { add(to, load, kind); }, load.kind);
     });
+}
+
+std::vector<fem::ContactPlane::Report> planeReports(const fem::Model& model) {
+  std::vector<fem::ContactPlane::Report> reports;
+  for (const auto& term : model.terms) {
+    const auto* const carried = dynamic_cast<const mpm::MarkerTerm*>(term.get());
+    const auto* const plane = dynamic_cast<const fem::ContactPlane*>(carried ? &carried->term() : term.get());
+    if (plane) reports.push_back(plane->report(carried ? carried->seen(model.nodes) : model.nodes, {.t = model.t}));
+  }
+  return reports;
 }
 
 void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, const Built& built) {

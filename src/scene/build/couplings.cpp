@@ -39,6 +39,13 @@ cg::SurfaceKernel kernelOf(const SurfaceKernel& kernel, const fem::SolidMesh& me
   return found;
 }
 
+/// In the plane, and of material points, facets have no kernel.
+void requireBare(const SurfaceContact& contact, const char* what) {
+  if (contact.spread || contact.smooth || contact.kernel.width.word.empty())
+    throw InputError(std::string("faces ") + what + " are facets without a kernel", "",
+                     "leave \"transfer\", \"surface\" and the number of \"kernel\" out");
+}
+
 /// The faces of all couplings of a solid with the same kernel, carried together, and those of one of them.
 surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& coupling, const SurfaceContact& contact,
                      const Scene& scene) {
@@ -53,8 +60,10 @@ surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& c
     if (other == &contact) first = faces.size(), end = first + own.size();
     faces.insert(faces.end(), own.begin(), own.end());
   }
-  surface::Skin skin = surface::makeSkin(mesh.X, faces);
-  const bool alone = first == 0 && end == faces.size();
+  const bool alone = first == 0 && end == faces.size(), plane = fem::dimensionOf(mesh) == 2;
+  surface::Skin skin =
+      plane ? surface::makeStrips(mesh.X, faces, mesh.thickness) : surface::makeSkin(mesh.X, faces);
+  if (plane) return alone ? skin : surface::partOf(skin, first, end);
   if (contact.spread) return alone ? skin : surface::partOf(skin, first, end);
   if (contact.kernel.width.word == "advised" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
     built.notes.push_back("Contacts on \"" + coupling.solid + "\" (" + contact.on +
@@ -110,6 +119,7 @@ surface::SurfaceCoupler couplingOn(surface::Skin skin, const SurfaceContact& con
 void add(Built& built, std::size_t solid, const Coupling& coupling, const SurfaceContact& contact, const Scene& scene) {
   dem::Model& grains = built.run->grains;
   requireConsistent(contact);
+  if (fem::dimensionOf(built.meshes[solid]) == 2) requireBare(contact, "of plane strain");
   requireAlone(built, built.meshes[solid], coupling, contact, scene);
   surface::Skin skin = skinOf(built, built.meshes[solid], coupling, contact, scene);
   skin.wall.material = contactRow(scene, contact.contactMaterial);
@@ -226,9 +236,7 @@ void add(Built& built, std::size_t number, const Coupling& coupling, const Point
 void addOnFaces(Built& built, std::size_t number, const Coupling& coupling, const SurfaceContact& contact,
                 const Scene& scene) {
   requireAlone(coupling, scene);
-  if (contact.spread || contact.smooth || contact.kernel.width.word.empty())
-    throw InputError("faces of material points are facets without a kernel", "",
-                     "leave \"transfer\", \"surface\" and the number of \"kernel\" out");
+  requireBare(contact, "of material points");
   const PointFaces& faces = built.faces.at(coupling.solid);
   coupling::SolidSide& side = built.run->solid(number);
   built.run->grains.terms.add(mpm::FaceContact(

@@ -12,6 +12,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/laws/contact_laws.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/scene/build.hpp"
 
@@ -105,10 +106,14 @@ struct LoadedFaces {
   std::function<void(std::shared_ptr<fem::Term>)> add;
 };
 void addLoads(const LoadedFaces& body, const Solid& solid, const Scene& scene, Built& built);
+/// Of the planes of a solid, in their order, in its present state.
+std::vector<fem::ContactPlane::Report> planeReports(const fem::Model& model);
 void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, const Built& built);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
 
+/// Its mesh, or the faces of a body of points on which something acts.
+const fem::SolidMesh& facesOf(const Built& built, const Scene& scene, std::size_t solid);
 bool isOfPoints(const Solid& solid);
 /// Their model, with gravity. In the place of their mesh is one without elements, whose nodes are the points as they
 /// start. @throws InputError for what has no meaning without elements, and points beyond a border

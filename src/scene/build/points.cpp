@@ -234,6 +234,11 @@ std::shared_ptr<fem::PointField> fieldIn(const Solid& solid, const mpm::Material
 
 }  // namespace
 
+const fem::SolidMesh& facesOf(const Built& built, const Scene& scene, std::size_t solid) {
+  const auto found = built.faces.find(scene.solids[solid].name);
+  return found == built.faces.end() ? built.meshes[solid] : found->second.mesh;
+}
+
 bool isOfPoints(const Solid& solid) { return std::holds_alternative<PointMesh>(solid.mesh); }
 
 std::unique_ptr<fem::Model> makePoints(const Solid& solid, const Scene& scene, Built& built) {

@@ -125,6 +125,7 @@ void describe(Fields& f, DriveProbe& v);
 void describe(Fields& f, SupportProbe& v);
 void describe(Fields& f, RegionProbe& v);
 void describe(Fields& f, CellsProbe& v);
+void describe(Fields& f, PlaneProbe& v);
 void describe(Fields& f, Probe& v);
 void describe(Fields& f, ShownCell& v);
 void describe(Fields& f, Output& v);

@@ -35,10 +35,14 @@ void describe(Fields& f, CellsProbe& v) {
   solid(f, v.solid);
   f.vector({"at", "position; the cell nearest to it at the start; the mean of all if not given"}, v.at, unit::length);
 }
+void describe(Fields& f, PlaneProbe& v) {
+  solid(f, v.solid);
+  f.integer({"plane", "which item of the solid's \"planes\", counted from 0"}, v.plane, 0, 1000000);
+}
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {
   static constexpr const char* kinds[] = {"grain", "node",    "body",   "wall", "solid",
-                                          "drive", "support", "region", "cells"};
+                                          "drive", "support", "region", "cells", "plane"};
   f.where(v.where);
   f.text({"name", "of its columns: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);
   f.oneOf({"of",

@@ -58,21 +58,6 @@ Momenta forceOn(const dem::Model& grains, const WallParts& parts, const Vec3& ab
   return sum;
 }
 
-/// Of the contacts on the surface of a solid.
-Momenta forceOn(const Built& built, const coupling::SolidSide& side, const Vec3& about,
-                const std::vector<std::size_t>& contacts) {
-  Momenta sum;
-  const auto all = std::as_const(built.run->grains).terms.all<surface::SurfaceContact>();
-  for (const std::size_t k : contacts) {
-    const coupling::NodalLoad& load = all[k]->coupling().load();
-    for (const int node : load.touched) {
-      const auto n = static_cast<std::size_t>(node);
-      sum.add(side.nodes().X[n] + side.nodes().u[n] - about, load.force[n]);
-    }
-  }
-  return sum;
-}
-
 void appendRegion(const dem::Particles& particles, const geometry::Box& box, std::vector<double>& row) {
   double count = 0.0, mass = 0.0;
   Vec3 momentum;
@@ -171,7 +156,7 @@ Probes::Values Probes::find(const Built& built, const Scene& scene, const std::s
 
 template <>
 Probes::Values Probes::find(const Built& built, const Scene& scene, const std::string& name, const SolidProbe& kind) {
-  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  solidNamed(kind.solid, *built.run);
   std::vector<std::size_t> contacts;
   std::size_t next = 0;
   for (const Coupling& coupling : scene.couplings) {
@@ -186,8 +171,10 @@ Probes::Values Probes::find(const Built& built, const Scene& scene, const std::s
         "give it one, or leave the probe out");
   nameVector(name + "_", "N");
   nameVector(name + "_m", "Nm");
-  return [=, about = kind.point.value_or(Vec3{})](const Built& now, std::vector<double>& row) {
-    const Momenta force = forceOn(now, std::as_const(*now.run).solid(solid), about, contacts);
+  return [contacts, about = kind.point.value_or(Vec3{})](const Built& now, std::vector<double>& row) {
+    const auto all = std::as_const(now.run->grains).terms.all<surface::SurfaceContact>();
+    Momenta force;
+    for (const std::size_t k : contacts) force += all[k]->onSolid(about);
     append(row, force.linear);
     append(row, force.angular);
   };
@@ -205,6 +192,22 @@ Probes::Values Probes::find(const Built& built, const Scene&, const std::string&
     const Momenta& support = std::as_const(now.run->grains).terms.all<dem::DriveTerm>()[item]->support;
     append(row, support.linear);
     append(row, support.angular);
+  };
+}
+
+template <>
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const PlaneProbe& kind) {
+  const std::size_t solid = solidNamed(kind.solid, *built.run);
+  const auto plane = static_cast<std::size_t>(kind.plane);
+  if (const auto there = planeReports(*built.run->solid(solid).model).size(); plane >= there)
+    throw InputError("\"" + kind.solid + "\" has no plane " + std::to_string(kind.plane), "",
+                     "it has " + std::to_string(there) + ", counted from 0");
+  nameVector(name + "_", "N");
+  names_.push_back(name + "_deepest_m");
+  return [solid, plane](const Built& now, std::vector<double>& row) {
+    const auto report = planeReports(*std::as_const(*now.run).solid(solid).model)[plane];
+    append(row, report.force);
+    row.push_back(report.deepest);
   };
 }
 

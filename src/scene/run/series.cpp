@@ -125,8 +125,7 @@ std::vector<std::pair<std::string, Vec3>> forcesOnSolids(const Built& built) {
     for (const auto* const contact : contacts) {
       if (&contact->side() != &side) continue;
       any = true;
-      const coupling::NodalLoad& load = contact->coupling().load();
-      for (const int node : load.touched) force += load.force[static_cast<std::size_t>(node)];
+      force += contact->onSolid({}).linear;
     }
     if (any) forces.emplace_back(side.name, force);
   }

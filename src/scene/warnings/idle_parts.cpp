@@ -106,8 +106,9 @@ void lookAtFaces(const Built& built, const Scene& scene, Lines& lines) {
     const Coupling& coupling = scene.couplings[k];
     const auto* const contact = std::get_if<SurfaceContact>(&coupling.kind);
     for (std::size_t s = 0; contact && s < scene.solids.size(); ++s) {
-      if (scene.solids[s].name != coupling.solid || fem::dimensionOf(built.meshes[s]) == 2) continue;
-      const fem::SolidMesh& mesh = built.meshes[s];
+      if (scene.solids[s].name != coupling.solid) continue;
+      const fem::SolidMesh& mesh = facesOf(built, scene, s);
+      if (fem::dimensionOf(mesh) == 2) continue;
       if (moves(scene.solids[s]) || within(grains, mesh.X)) continue;
       const surface::Skin skin = surface::makeSkin(mesh.X, fem::faceSet(mesh, contact->on));
       const auto isMet = [&](const geometry::Facet& facet) { return isBefore(grains, facet, skin.wall.x); };

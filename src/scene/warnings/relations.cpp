@@ -91,10 +91,7 @@ void lookAtPressures(const std::string& of, const Solid& solid, double modulus, 
 void lookAtPlanes(const std::string& of, const Solid& solid, const fem::Model& model, double modulus, Lines& lines) {
   constexpr double most = 0.01;
   std::size_t number = 0;
-  for (const auto& term : model.terms) {
-    const auto* const plane = dynamic_cast<const fem::ContactPlane*>(term.get());
-    if (!plane) continue;
-    const fem::ContactPlane::Report report = plane->report(model.nodes, {.t = model.t});
+  for (const fem::ContactPlane::Report& report : planeReports(model)) {
     if (report.largestPressure > most * modulus)
       lines.push_back(quoted(solid.name) + " starts " + rounded(report.deepest) + " m behind " + of + ".planes." +
                       std::to_string(number) + ", whose springs press it with " + rounded(report.largestPressure) +

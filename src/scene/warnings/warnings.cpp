@@ -60,6 +60,7 @@ void lookAtContacts(const Built& built, Lines& lines) {
 
 void lookAtSurfaceContact(const Built& built, const Scene& scene, std::size_t solid, const SurfaceContact& contact,
                           Lines& lines) {
+  if (isOfPoints(scene.solids[solid]) || fem::dimensionOf(built.meshes[solid]) == 2) return;  // without kernels
   const std::optional<ContactLaw>& law = contact.contact ? contact.contact : scene.contact;
   const double advised = surface::advisedKernel(built.meshes[solid]).kernel.width;
   const std::string name = quoted(scene.solids[solid].name);

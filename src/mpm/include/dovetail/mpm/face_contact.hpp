@@ -24,6 +24,7 @@ public:
               std::span<const fem::Face> faces, std::shared_ptr<const dem::ContactLaws> laws, double thickness = 1.0,
               int material = 0, const surface::CouplingOptions& options = {}, std::string name = "surface contacts");
 
+  Momenta onSolid(const Vec3& about) const override;
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<FaceContact>(*this); }
   bool followsNodes() const override { return true; }
   void check(const dem::Model& m) const override;

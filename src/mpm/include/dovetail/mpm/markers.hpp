@@ -42,9 +42,15 @@ void addTransposed(const Markers& markers, std::span<const Vec3> values, std::sp
 /// A term that acts on faces (pressure, traction, a contact plane) as one that acts on a body of points: it sees the
 /// markers of a set as its nodes, with their first places for X. Adjoint, and tangents Sᵀ K S; its energy, history and
 /// name are its own.
+class MarkerTerm : public fem::Term {
+public:
+  virtual const fem::Term& term() const = 0;
+  /// The markers, as the term sees them while the nodes are so.
+  virtual fem::Nodes seen(const fem::Nodes& nodes) const = 0;
+};
 /// @param set  of PointSolid::addMarkers
 /// @throws InputError for no points, or no term
-std::shared_ptr<fem::Term> onMarkers(std::shared_ptr<const PointSolid> points, std::size_t set,
+std::shared_ptr<MarkerTerm> onMarkers(std::shared_ptr<const PointSolid> points, std::size_t set,
                                      std::shared_ptr<fem::Term> term);
 
 }  // namespace dovetail::mpm

@@ -111,6 +111,11 @@ struct DriveProbe {
 struct SupportProbe {
   std::string solid, on;  ///< node set
 };
+/// Force of a plane on its solid, and how deep that is in it.
+struct PlaneProbe {
+  std::string solid;
+  int plane = 0;  ///< item of `planes`
+};
 /// Number and mean velocity of the grains in a box.
 struct RegionProbe {
   geometry::Box box = requiredBox;  ///< m
@@ -123,7 +128,7 @@ struct CellsProbe {
 struct Probe {
   std::string name;
   std::variant<GrainProbe, NodeProbe, BodyProbe, WallProbe, SolidProbe, DriveProbe, SupportProbe, RegionProbe,
-               CellsProbe>
+               CellsProbe, PlaneProbe>
       of;
   std::string where;
 };

@@ -54,7 +54,8 @@ Skin makeSkin(std::span<const Vec3> X, std::span<const fem::Face> faces, QuadSpl
               double sharpAngle = defaultSharpAngle);
 
 /// Lines of a plane mesh as strips of its thickness, in equal parts on both sides of its plane, that do not move along
-/// z: particles in that plane touch them as they do a skin. Two strips for a line of three nodes.
+/// z: particles in that plane touch them as they do a skin, which lines all around a solid close. Two strips for a line
+/// of three nodes.
 /// @param lines      run around the solid counter-clockwise seen from +z  @param thickness  m
 /// @throws InputError as makeSkin does, for other faces than lines, or a thickness that is not positive
 Skin makeStrips(std::span<const Vec3> X, std::span<const fem::Face> lines, double thickness,

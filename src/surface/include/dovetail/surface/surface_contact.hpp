@@ -34,6 +34,9 @@ public:
   const SurfaceCoupler& coupling() const { return coupling_; }
   const dem::ContactLaws& laws() const { return *laws_; }
 
+  /// Of the contacts on the solid in the last evaluation, N, and their moment, N m, about a point, m.
+  virtual Momenta onSolid(const Vec3& about) const;
+
   std::string name() const override { return name_; }
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<SurfaceContact>(*this); }
   /// Energy taken by a transfer that is not adjoint, if its work is booked (SurfaceCoupler::bookWallWork), and changes
