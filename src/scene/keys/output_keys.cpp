@@ -49,8 +49,9 @@ void describe(Fields& f, Probe& v) {
            "position and velocity of a grain, displacement of a node, centre of mass, velocity and extent of a solid, "
            "force and moment of the grains on a wall and its "
            "displacement, force and moment of the grains on a solid, force and moment of a drive on its grains or of a "
-           "support on its solid, number and mean velocity of the grains in a region, or pressure, stress ratio, void "
-           "ratio, contacts per grain and fraction of sliding contacts of the cells of a solid"},
+           "support on its solid, number and mean velocity of the grains in a region, pressure, stress ratio, void "
+           "ratio, contacts per grain and fraction of sliding contacts of the cells of a solid, or force of a plane on "
+           "its solid and how deep that is in it"},
           v.of, kinds);
 }
 void describe(Fields& f, ShownCell& v) {

@@ -57,7 +57,7 @@ void lookAtLoads(const std::string& of, const std::vector<Load>& loads, Lines& l
 
 /// What supports hold feels no load.
 void lookAtHeldFaces(const Built& built, const Scene& scene, std::size_t s, const std::string& of, Lines& lines) {
-  if (!built.run->solid(s).mass) return;  // the run has not started
+  if (!built.run->solid(s).mass || isOfPoints(scene.solids[s])) return;  // not started, or held by borders
   const fem::DofMap& dofs = built.run->solid(s).mass->dofs();
   const auto isHeld = [&](int node) {
     for (std::size_t c = 0; c < 3; ++c) {
