@@ -13,8 +13,12 @@ struct Case {
 
 // One source file each.
 bool bar(bool quick);
+bool block(bool quick);
 bool column(bool quick);
 bool discs(bool quick);
+bool footing(bool quick);
+bool rebound(bool quick);
+bool runOut(bool quick);
 bool speed(bool quick);
 bool stability(bool quick);
 bool stretch(bool quick);
