@@ -12,7 +12,9 @@
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/fem/solve/statics.hpp"
+#include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/mpm/fill.hpp"
 #include "dovetail/mpm/point_contact.hpp"
 #include "scenes.hpp"
 
@@ -50,12 +52,15 @@ struct Block {
   }
 };
 
-Block makeBlock(int across, std::vector<mpm::GridBorder> borders) {
+/// @param offset  of the base from a row of nodes, over the spacing of the grid
+Block makeBlock(int across, std::vector<mpm::GridBorder> borders, double offset = 0.0) {
   const double distance = height / across;
   const mpm::MaterialPoints points = box({}, half, height, distance);
   borders.push_back({.axis = 0});
   return {points.x, mpm::makePoints(points, neoHookeanField(youngs, poisson),
-                                    {.grid = {.spacing = 2.0 * distance, .borders = std::move(borders)}})};
+                                    {.grid = {.spacing = 2.0 * distance,
+                                              .origin = {0.0, -2.0 * offset * distance, 0.0},
+                                              .borders = std::move(borders)}})};
 }
 
 /// In statics, the base being a border of the grid.
@@ -66,6 +71,25 @@ double settledOnBorder(int across, mpm::BorderKind base) {
   fem::addMass(model);
   fem::solveStatics(model, 1.0, {.firstStep = 1.0});
   return block.settled(model.nodes);
+}
+
+/// In statics, markers on its face being pressed into a smooth plane.
+/// @param stiffness  of the plane, over the confined modulus and the distance of points
+double settledOnMarkers(int across, double offset, double stiffness) {
+  const Block block = makeBlock(across, {}, offset);
+  const double distance = height / across;
+  const fem::SolidMesh faces = mpm::facesOfBox({.spacing = 2.0 * distance}, {{}, {half, height, 1.0}}, 2);
+  fem::ContactOptions options;
+  options.penalty = stiffness * modulus / distance;
+  const double start = 1e-2 * density * g * height / options.penalty;  // so that it is held from the beginning
+  const auto plane =
+      fem::makeContactPlane(faces, fem::faceSet(faces, "y-"), {{0.0, start, 0.0}, {0.0, 1.0, 0.0}, {}}, options);
+  fem::Model model = mpm::makeModel(block.solid);
+  model.add(mpm::gravity(block.solid, Vec3{0.0, -g, 0.0}));
+  model.add(mpm::onMarkers(block.solid, block.solid->addMarkers(faces.X), plane));
+  fem::addMass(model);
+  fem::solveStatics(model, 1.0, {.firstStep = 1.0});
+  return block.settled(model.nodes) + start;
 }
 
 /// Damped until it stands, the base being spheres on a smooth wall.
@@ -98,6 +122,12 @@ const std::vector<Row> rows{
      mpm::BorderKind::symmetry, 1e-3},
     {"border of the grid, held", [](int n) { return settledOnBorder(n, mpm::BorderKind::held); }, mpm::BorderKind::held,
      1e-3},
+    {"markers on the face, 10 M/d", [](int n) { return settledOnMarkers(n, 0.0, 10.0); }, mpm::BorderKind::symmetry},
+    {"markers, 1000 M/d", [](int n) { return settledOnMarkers(n, 0.0, 1000.0); }, mpm::BorderKind::symmetry, 2e-3},
+    {"markers, 1000 M/d, 0.3 h off nodes", [](int n) { return settledOnMarkers(n, 0.3, 1000.0); },
+     mpm::BorderKind::symmetry, 1e-2},
+    {"markers, 1000 M/d, 0.5 h off nodes", [](int n) { return settledOnMarkers(n, 0.5, 1000.0); },
+     mpm::BorderKind::symmetry, 1e-2},
     {"spheres on a wall, k = M", [](int n) { return settledOnSpheres(n, 1.0); }, mpm::BorderKind::symmetry},
     {"spheres on a wall, k = 10 M", [](int n) { return settledOnSpheres(n, 10.0); }, mpm::BorderKind::symmetry},
 };

@@ -13,6 +13,7 @@
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/fem/motion/dynamics.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
+#include "dovetail/mpm/fill.hpp"
 #include "dovetail/mpm/point_contact.hpp"
 #include "scenes.hpp"
 
@@ -75,6 +76,30 @@ Answer points(const Setting& set, int across) {
           run.ledger().residual() / energy};
 }
 
+/// Markers on its lower face meet a plane as stiff as that of the elements.
+Answer markers(mpm::Transfer transfer, int across) {
+  const double distance = width / across;
+  const mpm::GridOptions grid{.spacing = 2.0 * distance, .origin = {0.0, gap, 0.0}};
+  mpm::MaterialPoints points = box({0.0, gap, 0.0}, width, width, distance);
+  for (Vec3& v : points.v) v.y = -pace;
+  const auto solid =
+      mpm::makePoints(points, neoHookeanField(youngs, poisson), {.grid = grid, .transfer = transfer});
+  const fem::SolidMesh faces = mpm::facesOfBox(grid, {{0.0, gap, 0.0}, {width, width + gap, 1.0}}, 2);
+  fem::ContactOptions options;
+  options.penalty = modulus * across / width;
+  auto model = std::make_unique<fem::Model>(mpm::makeModel(solid));
+  model->add(mpm::onMarkers(
+      solid, solid->addMarkers(faces.X),
+      fem::makeContactPlane(faces, fem::faceSet(faces, "y-"), {{}, {0.0, 1.0, 0.0}, {}}, options)));
+  coupling::CoupledRun run;
+  coupling::SolidSide& side = run.addSolid(std::move(model), {.name = "block"});
+  run.start(0.15 * distance / speed);
+  const double energy = run.kineticEnergy();
+  run.advance(std::llround(end / run.macroStep()));
+  return {restitutionOf(side.nodes()), run.ledger().joules("block: renewals of points") / energy,
+          run.ledger().residual() / energy};
+}
+
 /// Ways to meet the wall.
 struct Row {
   const char* name;
@@ -88,7 +113,9 @@ Row spheres(const char* name, const Setting& set) {
 std::vector<Row> allRows() {
   using coupling::Stepping;
   using mpm::Transfer;
-  return {spheres("spheres, flip, explicit", {}), spheres("spheres, apic, explicit", {.transfer = Transfer::apic}),
+  return {{"markers, flip, explicit", [](int n) { return markers(Transfer::flip, n); }},
+          {"markers, apic, explicit", [](int n) { return markers(Transfer::apic, n); }},
+          spheres("spheres, flip, explicit", {}), spheres("spheres, apic, explicit", {.transfer = Transfer::apic}),
           spheres("spheres, flip, implicit", {.stepping = Stepping::implicitSteps, .fraction = 0.5}),
           spheres("spheres, apic, implicit",
                   {.stepping = Stepping::implicitSteps, .transfer = Transfer::apic, .fraction = 0.5}),

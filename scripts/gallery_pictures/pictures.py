@@ -103,6 +103,8 @@ PICTURES = (
             draw="--solids shear_strain --size 700 800", lines=('"gradient"', '"material"', '"supports"')),
     Picture("biaxial-cells", "Bands of shear between the plates: no law of the solid says so, the discs at its points do.",
             draw="--solids shear_strain --size 700 800", lines=('"cells"', '"material"', '"loads"')),
+    Picture("biaxial-points", "The same as material points, whose faces bear the pressures and the plate: two bands that cross.",
+            draw="--solids shear_strain --size 700 800", lines=('"solids"',)),
     Picture("ball-on-cells", "Section under the ball, about when it turns back: the pressure that the spheres of the cells bear.",
             frame=0.15, draw="--cut y -0.02 --solids pressure --size 900 700", lines=('"cells"', '"material"', '"couplings"')),
     Picture("frequencies", "The third mode of a cantilever, the second about its softer axis: one place along it stands still.",
