@@ -82,15 +82,14 @@ Answer markers(mpm::Transfer transfer, int across) {
   const mpm::GridOptions grid{.spacing = 2.0 * distance, .origin = {0.0, gap, 0.0}};
   mpm::MaterialPoints points = box({0.0, gap, 0.0}, width, width, distance);
   for (Vec3& v : points.v) v.y = -pace;
-  const auto solid =
-      mpm::makePoints(points, neoHookeanField(youngs, poisson), {.grid = grid, .transfer = transfer});
+  const auto solid = mpm::makePoints(points, neoHookeanField(youngs, poisson), {.grid = grid, .transfer = transfer});
   const fem::SolidMesh faces = mpm::facesOfBox(grid, {{0.0, gap, 0.0}, {width, width + gap, 1.0}}, 2);
   fem::ContactOptions options;
   options.penalty = modulus * across / width;
   auto model = std::make_unique<fem::Model>(mpm::makeModel(solid));
-  model->add(mpm::onMarkers(
-      solid, solid->addMarkers(faces.X),
-      fem::makeContactPlane(faces, fem::faceSet(faces, "y-"), {{}, {0.0, 1.0, 0.0}, {}}, options)));
+  model->add(
+      mpm::onMarkers(solid, solid->addMarkers(faces.X),
+                     fem::makeContactPlane(faces, fem::faceSet(faces, "y-"), {{}, {0.0, 1.0, 0.0}, {}}, options)));
   coupling::CoupledRun run;
   coupling::SolidSide& side = run.addSolid(std::move(model), {.name = "block"});
   run.start(0.15 * distance / speed);
@@ -115,7 +114,8 @@ std::vector<Row> allRows() {
   using mpm::Transfer;
   return {{"markers, flip, explicit", [](int n) { return markers(Transfer::flip, n); }},
           {"markers, apic, explicit", [](int n) { return markers(Transfer::apic, n); }},
-          spheres("spheres, flip, explicit", {}), spheres("spheres, apic, explicit", {.transfer = Transfer::apic}),
+          spheres("spheres, flip, explicit", {}),
+          spheres("spheres, apic, explicit", {.transfer = Transfer::apic}),
           spheres("spheres, flip, implicit", {.stepping = Stepping::implicitSteps, .fraction = 0.5}),
           spheres("spheres, apic, implicit",
                   {.stepping = Stepping::implicitSteps, .transfer = Transfer::apic, .fraction = 0.5}),

@@ -78,8 +78,8 @@ fem::SolidMesh facesOnly(const fem::SolidMesh& mesh) {
 
 fem::SolidMesh facesOfBox(const GridOptions& grid, const geometry::Box& box, int perAxis) {
   const Parts parts = partsOf(grid, box, perAxis);
-  fem::SolidMesh faces = facesOnly(fem::boxOf(grid.plane ? fem::ElementShape::quad4 : fem::ElementShape::hex8,
-                                              parts.count, box.lower, box.upper));
+  fem::SolidMesh faces = facesOnly(
+      fem::boxOf(grid.plane ? fem::ElementShape::quad4 : fem::ElementShape::hex8, parts.count, box.lower, box.upper));
   if (grid.plane)
     for (Vec3& x : faces.X) x.z = 0.0;
   return faces;

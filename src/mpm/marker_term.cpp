@@ -137,7 +137,7 @@ private:
 }  // namespace
 
 std::shared_ptr<MarkerTerm> onMarkers(std::shared_ptr<const PointSolid> points, std::size_t set,
-                                     std::shared_ptr<fem::Term> term) {
+                                      std::shared_ptr<fem::Term> term) {
   if (points == nullptr || term == nullptr)
     throw InputError("there are no points, or no term", "mpm::onMarkers", "give those of makePoints, and a load");
   return std::make_shared<OnMarkers>(std::move(points), set, std::move(term));

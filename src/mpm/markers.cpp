@@ -74,7 +74,8 @@ Anchors nearestPoints(const GridOptions& grid, std::span<const Vec3> points, std
   Anchors anchors;
   for (std::size_t m = 0; m < markers.size(); ++m) {
     double nearest = grid.spacing;
-    if (isFinite(markers[m])) cubes.near(markers[m], [&](std::size_t, double far) { nearest = std::min(nearest, far); });
+    if (isFinite(markers[m]))
+      cubes.near(markers[m], [&](std::size_t, double far) { nearest = std::min(nearest, far); });
     if (!(nearest < grid.spacing))
       throw InputError("it is not finite, or farther than the spacing of the grid from every point",
                        "marker " + std::to_string(m) + " of \"" + name + "\"", "put markers on the faces of the body");

@@ -137,11 +137,10 @@ double SurfaceContact::lost() const {
 }
 
 void SurfaceContact::surround(dem::Surroundings& around) {
-  around.placed.push_back(
-      [this]() -> const dem::TriangulatedWall& {
-        const Motion nodes = carrying();
-        return coupling_.outline(nodes.u, nodes.v);
-      });
+  around.placed.push_back([this]() -> const dem::TriangulatedWall& {
+    const Motion nodes = carrying();
+    return coupling_.outline(nodes.u, nodes.v);
+  });
 }
 
 double SurfaceContact::renumber(std::span<const int> newNumber, const dem::Particles&) {
@@ -242,16 +241,15 @@ void SurfaceContact::addPartners(const dem::Model&, std::vector<dem::ImpactPartn
       box.lower[c] = std::min(box.lower[c], X[c]), box.upper[c] = std::max(box.upper[c], X[c]);
   double speed = 0.0;
   for (const Vec3& v : nodes.v) speed = std::max(speed, norm(v));
-  partners.push_back(
-      {.name = '"' + name_ + '"',
-       .laws = laws_.get(),
-       .material = coupling_.wall().material,
-       .inverseMass = coupling_.largestMobility(
-           ofCarrying(side().inverseMasses(coupling::SolidSide::Forces::atOnePlace))),
-       .speed = speed,
-       .box = box,
-       .of = side().model,
-       .inMacroSteps = side().stepping == coupling::Stepping::implicitSteps});
+  partners.push_back({.name = '"' + name_ + '"',
+                      .laws = laws_.get(),
+                      .material = coupling_.wall().material,
+                      .inverseMass = coupling_.largestMobility(
+                          ofCarrying(side().inverseMasses(coupling::SolidSide::Forces::atOnePlace))),
+                      .speed = speed,
+                      .box = box,
+                      .of = side().model,
+                      .inMacroSteps = side().stepping == coupling::Stepping::implicitSteps});
 }
 
 void SurfaceContact::addContacts(const dem::Model& m, dem::ContactSample& sample) const {

@@ -241,8 +241,8 @@ void SurfaceCoupler::locate(const dem::Particles& particles, std::span<const Vec
 // Comparisons are written so that a NaN asks for a search, which then names the culprit.
 bool SurfaceCoupler::marginUsed(const dem::Particles& particles, std::span<const Vec3> u, double reach,
                                 const ExchangeOptions& options) {
-  if (builds_ == 0 || nodesAtBuild_.size() != surfaceNodes_.size() || particles.revision != revision_ || reach != reachAtBuild_ ||
-      !(dem::periodsOf(options.periodicity) == periodAtBuild_))
+  if (builds_ == 0 || nodesAtBuild_.size() != surfaceNodes_.size() || particles.revision != revision_ ||
+      reach != reachAtBuild_ || !(dem::periodsOf(options.periodicity) == periodAtBuild_))
     return true;
   if (options.moves)
     travel_.add(*options.moves);

@@ -1,6 +1,4 @@
 // Markers on faces of material points, and terms that act on them.
-#include "dovetail/mpm/markers.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
 #include "dovetail/mpm/fill.hpp"
+#include "dovetail/mpm/markers.hpp"
 #include "random_points.hpp"
 
 namespace dovetail::mpm::test {
@@ -117,8 +116,8 @@ TEST(Markers, AreAdjoint) {
 TEST(Markers, GoWithTheBody) {
   const Case c;
   const GridOptions grid = gridOf(c);
-  const auto points = makePoints(fillBox(grid, {{}, {1.0, 1.0, 1.0}}, 2), elastic(1e-9),
-                                 {.grid = grid, .transfer = Transfer::apic});
+  const auto points =
+      makePoints(fillBox(grid, {{}, {1.0, 1.0, 1.0}}, 2), elastic(1e-9), {.grid = grid, .transfer = Transfer::apic});
   const std::vector<Vec3> corners{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.5, 1.0, 0.0}};
   const std::size_t set = points->addMarkers(corners);
   fem::Model model = makeModel(points);
@@ -149,8 +148,8 @@ TEST(Markers, CarryTermsWithTheirPotential) {
     for (const bool borders : {false, true}) {
       Random random;
       Body body = bodyOf({.plane = plane, .borders = borders}, random);
-      const auto term = onMarkers(body.points, body.set,
-                                  fem::followingPressure(body.faces, fem::faceSet(body.faces, "skin"), 1e3));
+      const auto term =
+          onMarkers(body.points, body.set, fem::followingPressure(body.faces, fem::faceSet(body.faces, "skin"), 1e3));
       ASSERT_TRUE(term->hasEnergy());
       fem::Nodes& nodes = body.model.nodes;
       nodes.u = anyValues(nodes.X.size(), 0.02, plane, random);

@@ -228,8 +228,7 @@ TEST(PointContact, BalancesForcesNearBorders) {
     run.grains.laws = dem::makeContactLaws(dem::FrictionalLaw{{confined}, {0.8 * confined, 0.5}});
     dem::addParticle(run.grains.particles, {0.08, 0.62, 0.0}, {-2.0, -3.0, 0.0}, 0.1, dem::Mass{30.0});
     const GridOptions grid{.spacing = 2.0 * spacing, .borders = {{.axis = 0, .kind = kind}, {}}};
-    const auto body =
-        makePoints(block({}, {0.5, 0.5, 0.0}, spacing, true), elastic(youngs, poisson), {.grid = grid});
+    const auto body = makePoints(block({}, {0.5, 0.5, 0.0}, spacing, true), elastic(youngs, poisson), {.grid = grid});
     auto& side = run.addSolid(std::make_unique<fem::Model>(makeModel(body)), {.name = "block"});
     if (faces) {
       const fem::SolidMesh skin = facesOfBox(grid, {{}, {0.5, 0.5, 1.0}}, 2);

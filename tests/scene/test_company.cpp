@@ -293,7 +293,8 @@ TEST(SceneTogether, GrainsMeetSolidsOfPlaneStrain) {
   const auto sceneWith = [](const std::string& coupling) {
     return sceneOf(
         R"("gravity": [0, -9.81, 0],
-    "particles": [{"from": "list", "density": 1000, "spheres": [{"at": [0.13, 0.26, 0], "radius": 0.05},
+    "particles": [{"from": "list", "density": 1000, "velocity": [-0.2, -1, 0],
+      "spheres": [{"at": [0.13, 0.26, 0], "radius": 0.05},
       {"at": [0.41, 0.25, 0], "radius": 0.04}]}],
     "solids": [{"name": "slab", "mesh": "box", "cell": "quad8", "cells": [4, 2, 1], "box": [[0, 0, 0], [0.4, 0.2, 0.1]],
       "material": {"law": "neo-Hookean", "youngs_modulus": 1e5, "poisson_ratio": 0.3, "density": 1000},
@@ -302,14 +303,13 @@ TEST(SceneTogether, GrainsMeetSolidsOfPlaneStrain) {
         coupling + "}],");
   };
   Built built = started(sceneWith(""));
-  for (Vec3& v : built.run->grains.particles.v) v = {-0.2, -1.0, 0.0};
   const double joules = built.run->kineticEnergy();
   built.run->advance(6000);
   EXPECT_LT(std::abs(built.run->ledger().residual()), 2e-3 * joules);
   const auto totals = built.run->totals();
   EXPECT_LT(totals.ontoSolids.y, -0.5);
   EXPECT_LT(norm(totals.residual.linear), 1e-12 * totals.turnedOver);
-  for (const Vec3& x : built.run->grains.particles.x) EXPECT_EQ(x.z, 0.0);
+  for (const Vec3& x : built.run->grains.particles.x) EXPECT_LE(std::abs(x.z), 1e-15);
   expectParts(refusalOf(sceneWith(R"(, "kernel": 0.1)")), {"couplings.0", "plane strain", "without a kernel"});
   expectParts(refusalOf(sceneWith(R"(, "surface": "smooth")")), {"couplings.0", "without a kernel"});
 }

@@ -177,7 +177,7 @@ void add(const Loaded& to, const Load& all, const PressureLoad& load) {
       throw InputError("a load of the place cannot change", "", "leave x, y and z out of it, or leave it as it is");
     const PlaceFunction pressure = fieldOf(load.pressure, to.scene);
     to.body.add(load.follows ? fem::followingPressure(to.body.mesh, to.faces(), pressure, to.name)
-                              : fem::deadPressure(to.body.mesh, to.faces(), pressure, to.name));
+                             : fem::deadPressure(to.body.mesh, to.faces(), pressure, to.name));
     return;
   }
   const fem::Amplitude pressure = amplitudeOf(to, all, load.pressure, 0);
@@ -193,7 +193,7 @@ void add(const Loaded& to, const Load& all, const NodalLoad& load) {
     Vec3 part;
     part[static_cast<int>(c)] = 1.0 / static_cast<double>(nodes.size());
     to.body.add(fem::nodalForce(nodes, part, amplitudeOf(to, all, load.force[c], static_cast<int>(c)),
-                                 to.name + " along " + "xyz"[c]));
+                                to.name + " along " + "xyz"[c]));
   }
 }
 void add(const Loaded& to, const Load& all, const TractionLoad& load) {
@@ -215,8 +215,8 @@ void add(const Loaded& to, const Load& all, const TractionLoad& load) {
     Vec3 direction;
     direction[static_cast<int>(c)] = 1.0;
     to.body.add(fem::deadTraction(to.body.mesh, to.faces(), direction,
-                                   amplitudeOf(to, all, load.traction[c], static_cast<int>(c)),
-                                   to.name + " along " + "xyz"[c]));
+                                  amplitudeOf(to, all, load.traction[c], static_cast<int>(c)),
+                                  to.name + " along " + "xyz"[c]));
   }
 }
 

@@ -61,8 +61,7 @@ surface::Skin skinOf(Built& built, const fem::SolidMesh& mesh, const Coupling& c
     faces.insert(faces.end(), own.begin(), own.end());
   }
   const bool alone = first == 0 && end == faces.size(), plane = fem::dimensionOf(mesh) == 2;
-  surface::Skin skin =
-      plane ? surface::makeStrips(mesh.X, faces, mesh.thickness) : surface::makeSkin(mesh.X, faces);
+  surface::Skin skin = plane ? surface::makeStrips(mesh.X, faces, mesh.thickness) : surface::makeSkin(mesh.X, faces);
   if (plane) return alone ? skin : surface::partOf(skin, first, end);
   if (contact.spread) return alone ? skin : surface::partOf(skin, first, end);
   if (contact.kernel.width.word == "advised" && surface::meetsPeriod(skin, built.run->grains.pairs.periodicity()))
@@ -239,11 +238,11 @@ void addOnFaces(Built& built, std::size_t number, const Coupling& coupling, cons
   requireBare(contact, "of material points");
   const PointFaces& faces = built.faces.at(coupling.solid);
   coupling::SolidSide& side = built.run->solid(number);
-  built.run->grains.terms.add(mpm::FaceContact(
-      side, pointsIn(side), faces.set, fem::faceSet(faces.mesh, contact.on),
-      contact.contact ? makeLaws(*contact.contact) : built.run->grains.laws, faces.mesh.thickness,
-      contactRow(scene, contact.contactMaterial), {.edges = static_cast<dem::EdgeRule>(contact.edges)},
-      "grains on " + coupling.solid + " (" + contact.on + ")"));
+  built.run->grains.terms.add(mpm::FaceContact(side, pointsIn(side), faces.set, fem::faceSet(faces.mesh, contact.on),
+                                               contact.contact ? makeLaws(*contact.contact) : built.run->grains.laws,
+                                               faces.mesh.thickness, contactRow(scene, contact.contactMaterial),
+                                               {.edges = static_cast<dem::EdgeRule>(contact.edges)},
+                                               "grains on " + coupling.solid + " (" + contact.on + ")"));
 }
 
 /// Overlaps need elements, and meshes have no points.

@@ -183,9 +183,10 @@ void requireNoElements(const Solid& solid, const Scene& scene) {
 // ---- their faces
 
 bool usesFaces(const Solid& solid, const Scene& scene) {
-  return !solid.loads.empty() || !solid.planes.empty() || std::ranges::any_of(scene.couplings, [&](const Coupling& one) {
-    return one.solid == solid.name && std::holds_alternative<SurfaceContact>(one.kind);
-  });
+  return !solid.loads.empty() || !solid.planes.empty() ||
+         std::ranges::any_of(scene.couplings, [&](const Coupling& one) {
+           return one.solid == solid.name && std::holds_alternative<SurfaceContact>(one.kind);
+         });
 }
 
 PointFaces& addFaces(Built& built, const Solid& solid, const mpm::GridOptions& grid, mpm::PointSolid& body) {
@@ -203,9 +204,8 @@ void addOnFaces(fem::Model& model, const std::shared_ptr<mpm::PointSolid>& body,
                 const Solid& solid, const Scene& scene, Built& built) {
   if (!usesFaces(solid, scene)) return;
   const PointFaces& faces = addFaces(built, solid, grid, *body);
-  const LoadedFaces loaded{faces.mesh, {}, [&](auto term) {
-                             model.add(mpm::onMarkers(body, faces.set, std::move(term)));
-                           }};
+  const LoadedFaces loaded{
+      faces.mesh, {}, [&](auto term) { model.add(mpm::onMarkers(body, faces.set, std::move(term))); }};
   addLoads(loaded, solid, scene, built);
   addPlanes(loaded, solid, scene, built);
 }

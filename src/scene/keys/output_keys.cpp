@@ -41,7 +41,7 @@ void describe(Fields& f, PlaneProbe& v) {
 }
 void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
 void describe(Fields& f, Probe& v) {
-  static constexpr const char* kinds[] = {"grain", "node",    "body",   "wall", "solid",
+  static constexpr const char* kinds[] = {"grain", "node",    "body",   "wall",  "solid",
                                           "drive", "support", "region", "cells", "plane"};
   f.where(v.where);
   f.text({"name", "of its columns: letters, digits, '_', '-' and '.', with a letter first"}, v.name, true);

@@ -46,11 +46,11 @@ private:
 
   std::shared_ptr<const PointSolid> points_;
   std::size_t set_;
-  cg::Projection ofMarkers_;      // vertices × markers
-  std::vector<Vec3> across_;      // of vertices from the plane of the markers, m
-  std::int64_t carriedAt_ = -1;   // renewals when the coupler was told its nodes
-  bool fitsState_ = false;        // a state has been loaded, whose nodes are still to be told
-  std::vector<Vec3> u_, v_;       // of nodes and their images
+  cg::Projection ofMarkers_;     // vertices × markers
+  std::vector<Vec3> across_;     // of vertices from the plane of the markers, m
+  std::int64_t carriedAt_ = -1;  // renewals when the coupler was told its nodes
+  bool fitsState_ = false;       // a state has been loaded, whose nodes are still to be told
+  std::vector<Vec3> u_, v_;      // of nodes and their images
   Momenta ofBorders_;
 };
 

@@ -23,7 +23,8 @@ struct NodeImage {
 
 /// Markers go with the points next to them and the gradients there: x = X + S u, a mean over these points of
 /// Σ (w + ∂w/∂x · (X − x_point)) u. Rows sum to one and reproduce linear fields, so that forces at markers, which go to
-/// the nodes by the transpose, keep their sum and their moment. Nodes are those that points reach: none is without mass.
+/// the nodes by the transpose, keep their sum and their moment. Nodes are those that points reach: none is without
+/// mass.
 struct Markers {
   std::vector<Vec3> X;  ///< m, as the grid was laid out
   cg::Projection map;   ///< S: markers × nodes, behind which there are `images`
@@ -51,6 +52,6 @@ public:
 /// @param set  of PointSolid::addMarkers
 /// @throws InputError for no points, or no term
 std::shared_ptr<MarkerTerm> onMarkers(std::shared_ptr<const PointSolid> points, std::size_t set,
-                                     std::shared_ptr<fem::Term> term);
+                                      std::shared_ptr<fem::Term> term);
 
 }  // namespace dovetail::mpm

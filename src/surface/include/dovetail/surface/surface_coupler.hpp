@@ -67,8 +67,8 @@ public:
   /// is spread by the kernel at the contact point. Forces still balance; power does not (see wallWork).
   void spreadLoad(SpreadLoad spread) { spread_ = std::make_shared<SpreadLoad>(std::move(spread)); }
 
-  /// From here on other nodes carry the facets: vertices at X, m, while u = 0, vertices × nodes in `map`. Contacts stay.
-  /// A state fits any nodes then: carry() those of the state after load().
+  /// From here on other nodes carry the facets: vertices at X, m, while u = 0, vertices × nodes in `map`. Contacts
+  /// stay. A state fits any nodes then: carry() those of the state after load().
   /// @throws InputError for a map of another size, on smooth patches or a skin with a kernel
   void carry(std::vector<Vec3> X, cg::Projection map);
   /// Candidates are found anew in the next exchange: u has another origin.
