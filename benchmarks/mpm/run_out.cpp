@@ -109,10 +109,11 @@ bool within(double value, double least, double most) { return value >= least && 
 bool show(const Setting& set) {
   const double start = seconds();
   const Answer a = collapse(set);
-  std::printf("| %g | %d | %s | %.2f | %.2f | %.2f | %.2f | %.4f | %.2f | %.1f | %.1f | %.3f | %ld | %ld | %.1f |\n",
-              set.aspect, set.across, nameOf(set.transfer), a.front, a.sheet, a.farthest, a.top, a.kinetic, a.when,
-              100.0 * a.rubbed, 100.0 * a.renewed, 100.0 * a.residual, static_cast<long>(a.renewals),
-              static_cast<long>(a.steps), seconds() - start);
+  std::printf(
+      "| %g | %g | %g | %d | %s | %.2f | %.2f | %.2f | %.2f | %.4f | %.2f | %.1f | %.1f | %.3f | %ld | %ld | %.1f |\n",
+      set.aspect, 1e-6 * set.youngs, set.stiffness, set.across, nameOf(set.transfer), a.front, a.sheet, a.farthest,
+      a.top, a.kinetic, a.when, 100.0 * a.rubbed, 100.0 * a.renewed, 100.0 * a.residual, static_cast<long>(a.renewals),
+      static_cast<long>(a.steps), seconds() - start);
   std::fflush(stdout);
   return within(a.front, 1.2 * set.aspect, 1.8 * set.aspect) && a.residual < 0.005 &&
          (set.aspect != 1.0 || within(a.kinetic, 0.075, 0.105));
@@ -125,10 +126,11 @@ bool runOut(bool quick) {
       "Run-out over the width: the front, where the deposit becomes thinner than 1/20 of the width; its sheet, thinner "
       "than a layer of points; the farthest point. Peak of the kinetic energy over the potential energy at the start, "
       "and its instant over √(H/g). Of what gravity gave, in %%: friction of the base, renewals, residual\n\n"
-      "| H/width | points across | transfer | front | sheet | farthest | top | peak | at | base | renewals | residual "
-      "| "
-      "renewals | steps | s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| H/width | E, MPa | k/M | points across | transfer | front | sheet | farthest | top | peak | at | base | "
+      "renewals | residual | renewals | steps | s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool holds = true;
+  for (const Setting& stiffer : {Setting{.across = 20, .youngs = 1e6}, {.across = 20, .stiffness = 10.0}})
+    holds = quick || (show(stiffer) && holds);
   for (const double aspect : {1.0, 2.0})
     for (const int across : {20, 40, 80})
       for (const mpm::Transfer transfer : {mpm::Transfer::flip, mpm::Transfer::apic}) {

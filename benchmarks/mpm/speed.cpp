@@ -1,6 +1,8 @@
 // Time of a step, with and without the law, threads, and memory.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <vector>
 
 #include "cases.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -12,7 +14,7 @@ namespace dovetail::benchmark {
 
 namespace {
 
-constexpr int steps = 60;
+constexpr int steps = 60, repeats = 5;
 
 struct Timing {
   double cpu = 0.0, wall = 0.0;  ///< µs a point and step
@@ -20,6 +22,11 @@ struct Timing {
   double stepsPerRenewal = 0.0;
   double bytes = 0.0;  ///< a point
 };
+
+double median(std::vector<double> values) {
+  std::ranges::nth_element(values, values.begin() + repeats / 2);
+  return values[repeats / 2];
+}
 
 template <class Values>
 std::size_t bytesOf(const Values& values) {
@@ -67,14 +74,18 @@ Timing flight(int across, mpm::Shape shape, mpm::Transfer transfer, double pace)
   fem::addMass(model);
   fem::ExplicitIntegrator run(model, 0.8 * fem::stableStep(model).dt, {.energyEvery = 0});
   run.run(1);
-  const double start = seconds();
-  const auto wall = std::chrono::steady_clock::now();
-  run.run(steps);
-  const double all = steps * static_cast<double>(points.x.size());
-  Timing timing{.cpu = 1e6 * (seconds() - start) / all,
-                .wall = 1e6 * std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count() / all};
+  std::vector<double> cpu, wall;
+  for (int k = 0; k < repeats; ++k) {
+    const double start = seconds();
+    const auto from = std::chrono::steady_clock::now();
+    run.run(steps);
+    cpu.push_back(seconds() - start);
+    wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count());
+  }
+  const double each = 1e6 / steps / static_cast<double>(points.x.size());
+  Timing timing{.cpu = each * median(cpu), .wall = each * median(wall)};
   timing.law = lawAlone(solid->answers().F(), points.x.size());
-  timing.stepsPerRenewal = solid->renewals() > 0 ? steps / static_cast<double>(solid->renewals()) : 0.0;
+  timing.stepsPerRenewal = solid->renewals() > 0 ? repeats * steps / static_cast<double>(solid->renewals()) : 0.0;
   timing.bytes = bytesOf(*solid, transfer == mpm::Transfer::apic);
   return timing;
 }
@@ -84,10 +95,10 @@ Timing flight(int across, mpm::Shape shape, mpm::Transfer transfer, double pace)
 bool speed(bool quick) {
   const int before = threads(), across = quick ? 64 : 128;
   std::printf(
-      "%d points, neo-Hookean, 2 × 2 a cell\n\n"
+      "%d points, neo-Hookean, 2 × 2 a cell; medians of %d\n\n"
       "| transfer | shape | m/s | steps a renewal | threads | µs of the processor a point and step | of which law | "
       "µs of the clock | bytes a point |\n|---|---|---|---|---|---|---|---|---|\n",
-      across * across);
+      across * across, repeats);
   for (const mpm::Transfer transfer : {mpm::Transfer::flip, mpm::Transfer::apic})
     for (const mpm::Shape shape : {mpm::Shape::quadratic, mpm::Shape::cubic})
       for (const double pace : {0.0, 1.0, 5.0})
