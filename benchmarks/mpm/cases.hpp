@@ -13,6 +13,7 @@ struct Case {
 
 // One source file each.
 bool bar(bool quick);
+bool cells(bool quick);
 bool column(bool quick);
 bool discs(bool quick);
 bool speed(bool quick);
