@@ -14,6 +14,7 @@ struct Case {
 // One source file each.
 bool bar(bool quick);
 bool block(bool quick);
+bool cells(bool quick);
 bool column(bool quick);
 bool discs(bool quick);
 bool footing(bool quick);

@@ -24,6 +24,7 @@ const std::vector<Case> cases{
     {"stretch", "A bar is pulled until its points part", stretch},
     {"stability", "Blocks that are thrown, hit and spun", stability},
     {"speed", "Cost of a step", speed},
+    {"cells-speed", "Steps of discs in cells at points", cells},
 };
 
 std::string names() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "dovetail/core/error.hpp"
@@ -110,8 +111,12 @@ void requirePlane(const rve::Rve& cell, const Eigen::Matrix3d& F) {
 
 struct CellOwner {
   virtual ~CellOwner() = default;
+  virtual int copies() const = 0;
   virtual void visitCommitted(const std::function<void(const rve::Rve&)>& visit) const = 0;
 };
+
+/// With a tenth to spare, for the strain of the next step.
+bool isThin(const rve::Rve& cell) { return cell.frame.empty() && rve::relativeWidth(cell) < 1.1; }
 
 /// A cell, and the committed state where the cell has gone on from it.
 template <class Update>
@@ -142,12 +147,14 @@ public:
   void commit() override {
     if (!answered_) return;
     update_.commit(cell_);
+    for (; isThin(cell_) && copies_ < mostCopies; copies_ *= 2) rve::repeat(cell_);
     before_ = cell_.state.ledger;
     committedF_ = F_;
     committed_ = Committed::inCell;
     answered_ = false;
   }
   void revert() override { answered_ = false; }
+  int copies() const override { return copies_; }
   void visitCommitted(const std::function<void(const rve::Rve&)>& visit) const override {
     if (committed_ == Committed::inCell) return visit(cell_);
     rve::Rve cell = cell_;
@@ -156,6 +163,7 @@ public:
   }
 
   void save(ByteWriter& archive) const override {
+    archive(copies_);
     rve::writeState(cell_, committed(), archive);
     Eigen::Matrix3d F = committedF_;
     passMatrix(archive, F);
@@ -163,14 +171,21 @@ public:
     update.pass(archive);
   }
   void load(ByteReader& archive) override {
-    rve::CellState state = rve::readState(cell_, archive);
+    int copies = 0;
+    archive(copies);
+    if (copies < 1 || copies > mostCopies)
+      throw InputError("it is of " + std::to_string(copies) + " copies", "cell of grains", "take an older file");
+    rve::Rve cell = rve::inCopies(cell_, copies_, copies);
+    rve::CellState state = rve::readState(cell, archive);
     Eigen::Matrix3d F = committedF_;
     passMatrix(archive, F);
     if (!((F - state.F).norm() <= 1e-9 * state.F.norm()))
       throw InputError("the deformation differs from that of the cell", "cell of grains", "take an older file");
     Update update = update_;
     update.pass(archive);
+    cell_ = std::move(cell);
     cell_.state = std::move(state);
+    copies_ = copies;
     before_ = cell_.state.ledger;
     committedF_ = F;
     update_ = update;
@@ -228,6 +243,7 @@ private:
   }
 
   rve::Rve cell_;
+  int copies_ = 1;         ///< of the sample, side by side
   rve::CellState kept_;    ///< the committed state, if it is kept apart
   rve::RveLedger before_;  ///< of the committed state
   Update update_;
@@ -259,6 +275,11 @@ bool visitCell(const fem::PointField& field, std::size_t point, const std::funct
   const auto* const owner = dynamic_cast<const CellOwner*>(field.point(point));
   if (owner) owner->visitCommitted(visit);
   return owner != nullptr;
+}
+
+int copiesAt(const fem::PointField& field, std::size_t point) {
+  const auto* const owner = dynamic_cast<const CellOwner*>(field.point(point));
+  return owner ? owner->copies() : 0;
 }
 
 std::shared_ptr<fem::PointField> cellField(std::vector<rve::Rve> samples, const QuasiStaticCells& settings, Deal deal) {

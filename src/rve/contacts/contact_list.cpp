@@ -258,16 +258,16 @@ double criticalStep(const Rve& cell, std::vector<double> stiffness) {
   return dem::detail::verletLimit(factor * widest * omega2, 0.0);
 }
 
-void updateNeighbourList(Rve& cell) {
+void updateNeighbourList(Rve& cell, bool thin) {
   CellState& s = cell.state;
   const geometry::IntegerMatrix map = geometry::reduce(s.lattice);
-  const double reach = listReach(cell);
+  const double least = 2.0 * listReach(cell);
   const std::array<double, 3> widths = s.lattice.widths();
   for (std::size_t k = 0; k < 3; ++k)
-    if (s.lattice.axes[k] && widths[k] < 2.0 * reach)
-      throw NumericalError("faces of the cell are " + formatNumber(widths[k]) + " m apart", "cell of grains",
-                           "take more grains: two of the largest diameters and skins, " + formatNumber(2.0 * reach) +
-                               " m, are the least");
+    if (s.lattice.axes[k] && widths[k] < least && !thin)
+      throw NumericalError(
+          "faces of the cell are " + formatNumber(widths[k]) + " m apart", "cell of grains",
+          "take more grains: two of the largest diameters and skins, " + formatNumber(least) + " m, are the least");
   const std::array<Vec3, 3> rows = geometry::inverse(s.lattice);
   const Renumbering renumbering{map, wrap(cell, rows)};
   Contacts contacts;

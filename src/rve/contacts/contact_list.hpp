@@ -9,8 +9,9 @@ namespace dovetail::rve {
 
 /// Reduces the lattice, wraps positions, lists pairs closer than their radii and the skin, and keeps what contacts
 /// remember. Sets the remaining skin and the critical step.
-/// @throws NumericalError if faces are closer than two of the largest diameters and skins
-void updateNeighbourList(Rve& cell);
+/// @param thin  faces may be one of the largest diameters and a skin apart: the cell is to be repeated
+/// @throws NumericalError if faces are closer than two of them, and the cell is not said to be thin
+void updateNeighbourList(Rve& cell, bool thin = false);
 
 /// 2/ω of the pair i, j that is fastest if either grain shares its mass among its pairs by what they ask of it
 /// (dem::criticalStep): ω² = Σ k_i/m_i + Σ k_j/m_j, k the stiffer of pressing and sliding with turning; of elastic

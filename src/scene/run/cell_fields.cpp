@@ -72,6 +72,27 @@ std::vector<MeshField> cellsAt(const Points& points) {
   return any ? fields : std::vector<MeshField>{};
 }
 
+RepeatedCells repeatedCells(const fem::Model& model) {
+  RepeatedCells cells;
+  forEachPoint(pointsOf(model), [&](const Points::Part& part, std::size_t p) {
+    const int copies = part.field ? hierarchical::copiesAt(*part.field, p) : 0;
+    cells.all += copies > 0;
+    cells.repeated += copies > 1;
+    cells.mostCopies = std::max(cells.mostCopies, copies);
+  });
+  return cells;
+}
+
+std::vector<std::string> linesOnRepeatedCells(const coupling::CoupledRun& run) {
+  std::vector<std::string> lines;
+  for (std::size_t s = 0; s < run.solids(); ++s)
+    if (const RepeatedCells cells = repeatedCells(*run.solid(s).model); cells.repeated > 0)
+      lines.push_back("solid \"" + run.solid(s).name + "\": " + std::to_string(cells.repeated) + " of " +
+                      std::to_string(cells.all) + " cells have become thin, and are repeated in up to " +
+                      std::to_string(cells.mostCopies) + " copies");
+  return lines;
+}
+
 std::vector<CellPoint> cellPoints(const fem::Model& model) {
   std::vector<CellPoint> cells;
   int last = -1, point = -1;

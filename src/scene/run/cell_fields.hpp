@@ -51,6 +51,15 @@ void visit(const CellPoint& place, const std::function<void(const rve::Rve&)>& l
 /// Mean by the volumes. @param cells  at least one  @param dimension  out: 2 of discs, 3 of spheres
 CellMeasures meanOf(const std::vector<CellPoint>& cells, int& dimension);
 
+/// Cells that have become thin, and are several copies side by side.
+struct RepeatedCells {
+  std::size_t all = 0, repeated = 0;
+  int mostCopies = 0;  ///< of one cell
+};
+RepeatedCells repeatedCells(const fem::Model& model);
+/// A line for each solid that has some.
+std::vector<std::string> linesOnRepeatedCells(const coupling::CoupledRun& run);
+
 /// What cells there are, as prepared, and how many grains and bytes the points of solids have.
 std::vector<std::string> linesOnCells(const Built& built);
 

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "build/parts.hpp"
+#include "cell_fields.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/mpm/point_solid.hpp"
 #include "dovetail/report/summary.hpp"
@@ -30,6 +31,12 @@ Json solidsOf(const Built& built) {
       list.push_back({{"name", built.run->solid(s).name},
                       {"nodes", built.meshes[s].X.size()},
                       {"elements", built.meshes[s].elementCount()}});
+  for (std::size_t s = 0; s < list.size(); ++s)
+    if (const RepeatedCells cells = repeatedCells(*built.run->solid(s).model); cells.all > 0) {
+      list[s]["cells"] = cells.all;
+      list[s]["cells_repeated"] = cells.repeated;
+      list[s]["most_copies"] = cells.mostCopies;
+    }
   return list;
 }
 
@@ -76,6 +83,7 @@ std::string writeSummary(const std::filesystem::path& folder, const io::KeyValue
   std::ostringstream text;
   for (const std::string& line : notes.lines) text << line << '\n';
   coupling::report(run, text);
+  for (const std::string& line : linesOnRepeatedCells(run)) text << line << '\n';
   const std::string title = scene.title.empty() ? "" : scene.title + '\n';
   std::string told;  // the log has these from the start
   for (const std::string& note : built.notes) told += "NOTE: " + note + '\n';

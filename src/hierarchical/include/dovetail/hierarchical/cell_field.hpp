@@ -64,6 +64,11 @@ double meanDensity(const std::vector<rve::Rve>& samples);
 /// @return whether there is one: other fields have none
 bool visitCell(const fem::PointField& field, std::size_t point, const std::function<void(const rve::Rve&)>& visit);
 
+/// In how many copies the cell of a point is, 0 where there is no cell. A committed cell whose faces have come near is
+/// repeated (rve::repeat), as long as there are no more than mostCopies.
+inline constexpr int mostCopies = 64;
+int copiesAt(const fem::PointField& field, std::size_t point);
+
 /// From the present deformation to F and to rest there, as points do in statics.
 /// @throws InputError as rve::followPath, or if a setting is not valid; NumericalError if the cell does not come to
 /// rest, or no grains touch there

@@ -129,6 +129,19 @@ void deform(Rve& cell, const Eigen::Matrix3d& G);
 /// @throws InputError if discs are to be deformed out of their plane
 Eigen::Matrix3d relativeDeformation(const Rve& cell, const Eigen::Matrix3d& F);
 
+/// Distance of the nearest faces of the shortest periods, over the two largest diameters and skins that step() needs.
+double relativeWidth(const Rve& cell);
+
+/// Lays the cell and a copy side by side, along the shortest periods and across the nearest faces: a cell of the same
+/// packing, in which each copy moves as before until what is not stable parts them. Grains 2 i and 2 i + 1 are those of
+/// i; volume, energies and the price of a step double, stresses and F stay.
+/// @throws InputError for a cell with a frame
+void repeat(Rve& cell);
+
+/// The grains of a cell that is `are` copies, in `wanted` copies, with no state but the axes that repeat: for one to be
+/// read. @throws InputError unless both are above 0, and `are` divides the grains
+Rve inCopies(const Rve& cell, int are, int wanted);
+
 /// Moves and turns grains by w (m) and θ (rad), components as in CellState; contacts feel it as with deform.
 /// @throws InputError if they are not of the cell's size or not finite; NumericalError as step
 void displace(Rve& cell, Components w, Components theta);
