@@ -20,6 +20,7 @@ Anchors nearestPoints(const GridOptions& grid, std::span<const Vec3> points, std
                       const std::string& name);
 
 /// map and images of markers at X among points at x, on a grid that has been laid out there.
-void findMap(const GridRows& rows, const Anchors& anchors, std::span<const Vec3> x, Markers& markers);
+void findMap(const GridOptions& grid, const GridRows& rows, const Anchors& anchors, std::span<const Vec3> x,
+             Markers& markers);
 
 }  // namespace dovetail::mpm::detail

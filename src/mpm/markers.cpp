@@ -87,7 +87,27 @@ Anchors nearestPoints(const GridOptions& grid, std::span<const Vec3> points, std
   return anchors;
 }
 
-void findMap(const GridRows& rows, const Anchors& anchors, std::span<const Vec3> x, Markers& markers) {
+namespace {
+
+/// Weights at X of the nodes that a point at x reaches, in the order of rows.
+std::vector<double> weightsBeside(const GridOptions& grid, const Vec3& X, const Vec3& x) {
+  std::vector<double> weights{1.0};
+  const int reach = reachOf(grid.shape);
+  for (int axis = grid.plane ? 1 : 2; axis >= 0; --axis) {
+    const auto place = [&](const Vec3& at) { return (at[axis] - grid.origin[axis]) / grid.spacing; };
+    const LineWeights line = mpm::weightsBeside(grid.shape, place(X), place(x), grid.gimpHalf);
+    std::vector<double> product;
+    for (const double weight : weights)
+      for (int k = 0; k < reach; ++k) product.push_back(weight * line.value[static_cast<std::size_t>(k)]);
+    weights = std::move(product);
+  }
+  return weights;
+}
+
+}  // namespace
+
+void findMap(const GridOptions& grid, const GridRows& rows, const Anchors& anchors, std::span<const Vec3> x,
+             Markers& markers) {
   const auto nodes = static_cast<int>(rows.nodes());
   std::map<std::pair<int, std::uint8_t>, int> columnOf;
   markers.images.clear();
@@ -96,9 +116,8 @@ void findMap(const GridRows& rows, const Anchors& anchors, std::span<const Vec3>
     const std::size_t first = anchors.first[m], end = anchors.first[m + 1];
     for (std::size_t k = first; k < end; ++k) {
       const std::size_t p = anchors.point[k], entry = rows.perPoint * static_cast<std::size_t>(rows.cell[p]);
-      const Vec3 arm = markers.X[m] - x[p];
+      const std::vector<double> weight = weightsBeside(grid, markers.X[m], x[p]);
       for (std::size_t a = 0; a < rows.perPoint; ++a) {
-        const double weight = rows.weight[rows.perPoint * p + a] + dot(rows.slope[rows.perPoint * p + a], arm);
         int column = rows.node[entry + a];
         if (const std::uint8_t flip = rows.flip[entry + a]; flip != 0) {
           const auto [place, isNew] =
@@ -106,7 +125,7 @@ void findMap(const GridRows& rows, const Anchors& anchors, std::span<const Vec3>
           if (isNew) markers.images.push_back({column, flip});
           column = place->second;
         }
-        map[m].emplace_back(column, weight / static_cast<double>(end - first));
+        map[m].emplace_back(column, weight[a] / static_cast<double>(end - first));
       }
     }
   }

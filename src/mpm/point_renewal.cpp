@@ -37,7 +37,7 @@ bool Points::wantsOtherNodes(const Nodes& nodes) const {
 
 void Points::layNodes(Nodes& nodes) {
   rows_ = rowsAt(options_.grid, carried_.x, options_.name);
-  for (auto& [anchors, markers] : marked_) findMap(rows_, anchors, carried_.x, markers);
+  for (auto& [anchors, markers] : marked_) findMap(options_.grid, rows_, anchors, carried_.x, markers);
   const std::size_t count = rows_.nodes();
   nodes.X = rows_.X;
   nodes.u.assign(count, {});
@@ -81,7 +81,7 @@ std::size_t Points::addMarkers(std::span<const Vec3> x) {
     throw InputError("the grid has been renewed", options_.name, "add markers before the run, at the first places");
   Marked marked{nearestPoints(options_.grid, carried_.x, x, options_.name), {{x.begin(), x.end()}, {}, {}}};
   if (rows_.points() == 0) rows_ = rowsAt(options_.grid, carried_.x, options_.name);
-  findMap(rows_, marked.anchors, carried_.x, marked.markers);
+  findMap(options_.grid, rows_, marked.anchors, carried_.x, marked.markers);
   marked_.push_back(std::move(marked));
   return marked_.size() - 1;
 }

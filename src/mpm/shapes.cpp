@@ -6,8 +6,9 @@ namespace dovetail::mpm {
 
 namespace {
 
-LineWeights linearAt(double s) {
-  const double first = std::floor(s), t = s - first;
+// Of the nodes that s0 reaches.
+LineWeights linearAt(double s, double s0) {
+  const double first = std::floor(s0), t = s - first;
   return {static_cast<int>(first), {1.0 - t, t}, {-1.0, 1.0}};
 }
 
@@ -31,15 +32,15 @@ LineWeights gimpAt(double s, double half) {
   return weights;
 }
 
-LineWeights quadraticAt(double s) {
-  const double nearest = std::floor(s + 0.5), t = s - nearest;
+LineWeights quadraticAt(double s, double s0) {
+  const double nearest = std::floor(s0 + 0.5), t = s - nearest;
   return {static_cast<int>(nearest) - 1,
           {0.5 * (0.5 - t) * (0.5 - t), 0.75 - t * t, 0.5 * (0.5 + t) * (0.5 + t)},
           {t - 0.5, -2.0 * t, t + 0.5}};
 }
 
-LineWeights cubicAt(double s) {
-  const double below = std::floor(s), t = s - below, r = 1.0 - t;
+LineWeights cubicAt(double s, double s0) {
+  const double below = std::floor(s0), t = s - below, r = 1.0 - t;
   return {static_cast<int>(below) - 1,
           {r * r * r / 6.0, 2.0 / 3.0 - t * t + 0.5 * t * t * t, 2.0 / 3.0 - r * r + 0.5 * r * r * r, t * t * t / 6.0},
           {-0.5 * r * r, -2.0 * t + 1.5 * t * t, 2.0 * r - 1.5 * r * r, 0.5 * t * t}};
@@ -74,16 +75,21 @@ int reachOf(Shape shape) {
   return 0;
 }
 
-LineWeights weightsAt(Shape shape, double s, double half) {
+LineWeights weightsAt(Shape shape, double s, double half) { return weightsBeside(shape, s, s, half); }
+
+LineWeights weightsBeside(Shape shape, double s, double s0, double half) {
   switch (shape) {
     case Shape::linear:
-      return linearAt(s);
-    case Shape::gimp:
-      return gimpAt(s, half);
+      return linearAt(s, s0);
+    case Shape::gimp: {
+      LineWeights weights = gimpAt(s0, half);
+      for (std::size_t k = 0; k < 3; ++k) weights.value[k] += weights.slope[k] * (s - s0);
+      return weights;
+    }
     case Shape::quadratic:
-      return quadraticAt(s);
+      return quadraticAt(s, s0);
     case Shape::cubic:
-      return cubicAt(s);
+      return cubicAt(s, s0);
   }
   return {};
 }

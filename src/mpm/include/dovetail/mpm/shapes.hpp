@@ -25,6 +25,10 @@ int reachOf(Shape shape);
 /// @param half  of the box of `gimp`, over the distance of nodes, > 0 and at most ½
 LineWeights weightsAt(Shape shape, double s, double half = 0.25);
 
+/// Weights at s of the nodes that s0 reaches: the polynomials that their functions are at s0 go on to s (of `gimp`, the
+/// tangents). The sums above hold.
+LineWeights weightsBeside(Shape shape, double s, double s0, double half = 0.25);
+
 /// Σ value (i − s)², the same for every s, of B-splines: ¼ (quadratic), ⅓ (cubic); 0 of the others, for which it
 /// depends on s.
 double secondMoment(Shape shape);
