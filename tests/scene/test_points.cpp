@@ -386,6 +386,24 @@ TEST(ScenePoints, OfCellsGoOnWithTheSameBytes) {
             }));
 }
 
+/// Cells of few discs are thin soon, and repeated.
+TEST(ScenePoints, OfThinCellsAreToldAndGoOnWithTheSameBytes) {
+  const Scene scene = cellsIn(bedOfCells(R"(, "deal": "by depth")", R"("velocity": [0.2, -1.5, 0], )",
+                                         R"("grains": "discs", "count": 13, "thickness": 0.1)"));
+  Built built = started(scene), again = started(scene);
+  EXPECT_EQ(linesOnRepeatedCells(*built.run), std::vector<std::string>{});
+  built.run->advance(60);
+  const RepeatedCells now = repeatedCells(*built.run->solid(0).model);
+  EXPECT_EQ(now.all, pointsIn(built).masses().size());
+  EXPECT_GT(now.repeated, 0U);
+  EXPECT_GE(now.mostCopies, 2);
+  ASSERT_EQ(linesOnRepeatedCells(*built.run).size(), 1U);
+  EXPECT_NE(linesOnRepeatedCells(*built.run)[0].find("cells have become thin"), std::string::npos);
+  again.run->load(built.run->save());
+  for (Built* const one : {&built, &again}) one->run->advance(10);
+  EXPECT_EQ(built.run->save(), again.run->save());
+}
+
 TEST(ScenePoints, OfCellsAreToldWhatCannotBe) {
   const std::string deal = R"(, "deal": "by depth")";
   expectParts(refusalOf(cellsIn(
