@@ -127,7 +127,8 @@ bool runOut(bool quick) {
       "than a layer of points; the farthest point. Peak of the kinetic energy over the potential energy at the start, "
       "and its instant over √(H/g). Of what gravity gave, in %%: friction of the base, renewals, residual\n\n"
       "| H/width | E, MPa | k/M | points across | transfer | front | sheet | farthest | top | peak | at | base | "
-      "renewals | residual | renewals | steps | s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "renewals | residual | renewals | steps | s "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   bool holds = true;
   for (const Setting& stiffer : {Setting{.across = 20, .youngs = 1e6}, {.across = 20, .stiffness = 10.0}})
     holds = quick || (show(stiffer) && holds);
