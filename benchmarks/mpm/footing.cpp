@@ -7,14 +7,13 @@
 #include <vector>
 
 #include "cases.hpp"
-#include "dovetail/core/error.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/contact_plane.hpp"
 #include "dovetail/fem/terms/loads.hpp"
-#include "dovetail/linalg/block_matrix.hpp"
+#include "dovetail/mpm/fill.hpp"
 #include "scenes.hpp"
 
 namespace dovetail::benchmark {
@@ -43,131 +42,61 @@ struct Answer {
   std::int64_t iterations = 0;
 };
 
-/// On the upper face above each point of the upper row, with the nodes of that point.
-struct Marker {
-  std::vector<int> node;
-  std::vector<double> weight;
-  double length = 0.0;
-  bool below = false;    ///< the footing
-  double settled = 0.0;  ///< under the surcharge, m
-};
-
-std::vector<Marker> markersOn(const mpm::PointSolid& solid, const std::vector<Vec3>& x, double distance,
-                              const mpm::GridOptions& grid) {
-  const mpm::GridRows& rows = solid.rows();
-  std::vector<Marker> markers;
-  for (std::size_t p = 0; p < x.size(); ++p) {
-    if (x[p].y < depth - distance) continue;
-    Marker marker;
-    marker.length = distance;
-    marker.below = x[p].x < half;
-    const mpm::LineWeights along = mpm::weightsAt(grid.shape, x[p].x / grid.spacing),
-                           up = mpm::weightsAt(grid.shape, depth / grid.spacing);
-    double sum = 0.0;
-    for (std::size_t a = 0; a < rows.perPoint; ++a) {
-      const std::size_t entry = rows.perPoint * static_cast<std::size_t>(rows.cell[p]) + a;
-      const auto i = std::lround(rows.reached[entry].x / grid.spacing) - along.first,
-                 j = std::lround(rows.reached[entry].y / grid.spacing) - up.first;
-      if (i < 0 || j < 0 || i >= mpm::mostInReach || j >= mpm::mostInReach) continue;
-      const double w = along.value[static_cast<std::size_t>(i)] * up.value[static_cast<std::size_t>(j)];
-      if (w == 0.0) continue;
-      marker.node.push_back(rows.node[entry]);
-      marker.weight.push_back(w);  // of the vertical, which symmetry does not turn round
-      sum += w;
-    }
-    if (std::abs(sum - 1.0) > 1e-9)
-      throw InputError("points do not reach the face", "footing", "lay the face on nodes");
-    markers.push_back(std::move(marker));
-  }
-  return markers;
-}
-
-/// The surcharge, and a smooth footing on springs.
-class Footing final : public fem::Term {
-public:
-  Footing(std::vector<Marker> markers, double stiffness) : markers_(std::move(markers)), stiffness_(stiffness) {}
-  std::string name() const override { return "footing"; }
-  bool usesVelocity() const override { return false; }
-  void addForces(const fem::Nodes& nodes, const fem::Instant& now, std::span<Vec3> f) override {
-    for (const Marker& marker : markers_) {
-      const double force = marker.length * (pressureAt(now.t) + pressureOf(marker, nodes, now.t));
-      for (std::size_t a = 0; a < marker.node.size(); ++a)
-        f[static_cast<std::size_t>(marker.node[a])].y -= marker.weight[a] * force;
-    }
-  }
-  void addPattern(linalg::MatrixPattern& pattern) const override {
-    for (const Marker& marker : markers_) pattern.add(marker.node);
-  }
-  void addTangent(const fem::Nodes& nodes, const fem::Instant& now, linalg::BlockMatrix& K) override {
-    for (const Marker& marker : markers_) {
-      if (pressureOf(marker, nodes, now.t) == 0.0) continue;
-      const std::size_t n = marker.node.size(), size = 3 * n;
-      std::vector<double> own(size * size);
-      for (std::size_t a = 0; a < n; ++a)
-        for (std::size_t b = 0; b < n; ++b)
-          own[size * (3 * a + 1) + 3 * b + 1] = stiffness_ * marker.length * marker.weight[a] * marker.weight[b];
-      K.add(marker.node, own);
-    }
-  }
-  double commit(const fem::Nodes& nodes, const fem::Instant& now) override {
-    if (now.t <= 1.0)
-      for (Marker& marker : markers_) marker.settled = -heightOf(marker, nodes);
-    return 0.0;
-  }
-  double force(const fem::Nodes& nodes, double t) const {
-    double sum = 0.0;
-    for (const Marker& marker : markers_) sum += marker.length * pressureOf(marker, nodes, t);
-    return sum;
-  }
-
-private:
-  double heightOf(const Marker& marker, const fem::Nodes& nodes) const {
-    double u = 0.0;
-    for (std::size_t a = 0; a < marker.node.size(); ++a)
-      u += marker.weight[a] * nodes.u[static_cast<std::size_t>(marker.node[a])].y;
-    return u;
-  }
-  double pressureOf(const Marker& marker, const fem::Nodes& nodes, double t) const {
-    if (!marker.below || t <= 1.0) return 0.0;
-    return std::max(0.0, stiffness_ * (settlementAt(t) + heightOf(marker, nodes) + marker.settled));
-  }
-
-  std::vector<Marker> markers_;
-  double stiffness_;  ///< Pa/m
-};
-
 /// @param force  force(model) of the footing, N
 template <class Force>
 Answer press(fem::Model& model, Force&& force) {
-  const fem::NewtonOptions newton{.relativeTolerance = 1e-6};
+  const fem::NewtonOptions newton{.relativeTolerance = 1e-6, .maxIterations = 40};
   fem::solveStatics(model, 1.0, {.newton = newton, .firstStep = 1.0});
   Answer answer;
   for (const double look : looks) {
     const fem::StaticReport report = fem::solveStatics(model, 1.0 + look * unit,
                                                        {.newton = newton,
                                                         .firstStep = unit,
-                                                        .largestStep = 5.0 * unit,
+                                                        .largestStep = 10.0 * unit,
                                                         .smallestStep = 1e-4 * unit,
-                                                        .iterationTarget = 12});
+                                                        .iterationTarget = 20});
     answer.factor.push_back(1.0 + force(model) / (surcharge * half));
     answer.iterations += report.iterations;
   }
   return answer;
 }
 
+/// The smooth footing touches the settled ground when t = 1 s.
+/// @param stiffness  Pa/m
+std::shared_ptr<fem::ContactPlane> footingOn(const fem::SolidMesh& mesh, double stiffness) {
+  std::vector<fem::Face> below;
+  for (const fem::Face& face : fem::faceSet(mesh, "y+"))
+    if (0.5 * (mesh.X[static_cast<std::size_t>(face.node[0])].x + mesh.X[static_cast<std::size_t>(face.node[1])].x) <
+        half)
+      below.push_back(face);
+  const double settled = depth * surcharge / modulus;
+  return fem::makeContactPlane(mesh, below,
+                               {.point = {0.0, depth - settled, 0.0},
+                                .normal = {0.0, -1.0, 0.0},
+                                .motion =
+                                    [](double t) {
+                                      return Vec3{0.0, -settlementAt(t), 0.0};
+                                    }},
+                               {.penalty = stiffness});
+}
+
 Answer points(int cells, mpm::Shape shape, double perCell) {
   const double spacing = half / cells, distance = spacing / perCell;
-  const mpm::MaterialPoints block = box({}, width, depth, distance);
   const mpm::GridOptions grid{
       .spacing = spacing,
       .shape = shape,
       .borders = {{.axis = 0}, {.axis = 0, .above = true, .place = width}, {.axis = 1, .kind = mpm::BorderKind::held}}};
-  const auto solid = mpm::makePoints(block, fem::pointField(fem::pointMaterial(sand())), {.grid = grid});
+  const auto solid =
+      mpm::makePoints(box({}, width, depth, distance), fem::pointField(fem::pointMaterial(sand())), {.grid = grid});
+  const fem::SolidMesh faces = mpm::facesOfBox(grid, {{}, {width, depth, 1.0}}, static_cast<int>(perCell));
+  const std::size_t set = solid->addMarkers(faces.X);
   fem::Model model = mpm::makeModel(solid);
   fem::addMass(model);
-  auto& footing =
-      model.add(std::make_shared<Footing>(markersOn(*solid, block.x, distance, grid), 10.0 * modulus / spacing));
-  return press(model, [&](const fem::Model& now) { return footing.force(now.nodes, now.t); });
+  model.add(mpm::onMarkers(solid, set, fem::deadPressure(faces, fem::faceSet(faces, "y+"), pressureAt)));
+  const auto plane = footingOn(faces, 10.0 * modulus / spacing);
+  const mpm::MarkerTerm& footing = model.add(mpm::onMarkers(solid, set, plane));
+  return press(model,
+               [&](const fem::Model& now) { return -plane->report(footing.seen(now.nodes), {.t = now.t}).force.y; });
 }
 
 Answer elements(int cells, fem::ElementShape shape, fem::Formulation formulation) {
@@ -178,24 +107,9 @@ Answer elements(int cells, fem::ElementShape shape, fem::Formulation formulation
   model.constraints.hold(fem::nodeSet(mesh, "y-"));
   model.constraints.hold(fem::nodeSet(mesh, "x-"), fem::componentX);
   model.constraints.hold(fem::nodeSet(mesh, "x+"), fem::componentX);
-  const std::vector<fem::Face>& top = fem::faceSet(mesh, "y+");
-  model.add(fem::deadPressure(mesh, top, pressureAt));
-  std::vector<fem::Face> below;
-  for (const fem::Face& face : top)
-    if (0.5 * (mesh.X[static_cast<std::size_t>(face.node[0])].x + mesh.X[static_cast<std::size_t>(face.node[1])].x) <
-        half)
-      below.push_back(face);
   fem::addMass(model);
-  const double settled = depth * surcharge / modulus;
-  auto plane = fem::makeContactPlane(mesh, below,
-                                     {.point = {0.0, depth - settled, 0.0},
-                                      .normal = {0.0, -1.0, 0.0},
-                                      .motion =
-                                          [](double t) {
-                                            return Vec3{0.0, -settlementAt(t), 0.0};
-                                          }},
-                                     {.penalty = 10.0 * modulus * cells / half});
-  fem::ContactPlane& footing = model.add(plane);
+  model.add(fem::deadPressure(mesh, fem::faceSet(mesh, "y+"), pressureAt));
+  const fem::ContactPlane& footing = model.add(footingOn(mesh, 10.0 * modulus * cells / half));
   return press(model, [&](const fem::Model& now) { return -footing.report(now.nodes, {.t = now.t}).force.y; });
 }
 
