@@ -1,5 +1,6 @@
 #include "dovetail/mpm/markers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -104,31 +105,79 @@ std::vector<double> weightsBeside(const GridOptions& grid, const Vec3& X, const 
   return weights;
 }
 
+/// Values and gradients of the point at the marker.
+std::vector<double> tangentsAt(const GridRows& rows, std::size_t p, const Vec3& arm) {
+  std::vector<double> weights(rows.perPoint);
+  for (std::size_t a = 0; a < weights.size(); ++a) {
+    const std::size_t k = rows.perPoint * p + a;
+    weights[a] = rows.weight[k] + dot(rows.slope[k], arm);
+  }
+  return weights;
+}
+
+/// Calls visit(m, p, share) for the points of each marker.
+template <class Visit>
+void eachAnchor(const Anchors& anchors, Visit&& visit) {
+  for (std::size_t m = 0; m + 1 < anchors.first.size(); ++m) {
+    const std::size_t first = anchors.first[m], end = anchors.first[m + 1];
+    for (std::size_t k = first; k < end; ++k) visit(m, anchors.point[k], 1.0 / static_cast<double>(end - first));
+  }
+}
+
+/// Calls visit(a, entry) for the nodes that a point reaches.
+template <class Visit>
+void eachEntry(const GridRows& rows, std::size_t p, Visit&& visit) {
+  for (std::size_t a = 0; a < rows.perPoint; ++a) visit(a, rows.perPoint * static_cast<std::size_t>(rows.cell[p]) + a);
+}
+
+/// Nodes at which a face bears many times what their mass is of that of points: pressure would throw them. On faces
+/// along nodes it is 4 times, at corners there 16.
+std::vector<char> lightNodes(const GridOptions& grid, const GridRows& rows, const Anchors& anchors,
+                             std::span<const Vec3> x, const std::vector<Vec3>& X) {
+  constexpr double most = 18.0;
+  std::vector<double> face(rows.nodes(), 0.0), mass(rows.nodes(), 0.0);
+  for (std::size_t p = 0; p < rows.points(); ++p)
+    eachEntry(rows, p, [&](std::size_t a, std::size_t entry) {
+      mass[static_cast<std::size_t>(rows.node[entry])] += rows.weight[rows.perPoint * p + a];
+    });
+  eachAnchor(anchors, [&](std::size_t m, std::size_t p, double share) {
+    const std::vector<double> weight = weightsBeside(grid, X[m], x[p]);
+    eachEntry(rows, p, [&](std::size_t a, std::size_t entry) {
+      face[static_cast<std::size_t>(rows.node[entry])] += share * std::abs(weight[a]);
+    });
+  });
+  std::vector<char> light(rows.nodes());
+  for (std::size_t n = 0; n < light.size(); ++n) light[n] = face[n] > most * mass[n] ? 1 : 0;
+  return light;
+}
+
 }  // namespace
 
 void findMap(const GridOptions& grid, const GridRows& rows, const Anchors& anchors, std::span<const Vec3> x,
              Markers& markers) {
   const auto nodes = static_cast<int>(rows.nodes());
+  const std::vector<char> light = lightNodes(grid, rows, anchors, x, markers.X);
   std::map<std::pair<int, std::uint8_t>, int> columnOf;
   markers.images.clear();
   std::vector<cg::ProjectionRow> map(markers.X.size());
-  for (std::size_t m = 0; m < map.size(); ++m) {
-    const std::size_t first = anchors.first[m], end = anchors.first[m + 1];
-    for (std::size_t k = first; k < end; ++k) {
-      const std::size_t p = anchors.point[k], entry = rows.perPoint * static_cast<std::size_t>(rows.cell[p]);
-      const std::vector<double> weight = weightsBeside(grid, markers.X[m], x[p]);
-      for (std::size_t a = 0; a < rows.perPoint; ++a) {
-        int column = rows.node[entry + a];
-        if (const std::uint8_t flip = rows.flip[entry + a]; flip != 0) {
-          const auto [place, isNew] =
-              columnOf.try_emplace({column, flip}, nodes + static_cast<int>(markers.images.size()));
-          if (isNew) markers.images.push_back({column, flip});
-          column = place->second;
-        }
-        map[m].emplace_back(column, weight[a] / static_cast<double>(end - first));
+  eachAnchor(anchors, [&](std::size_t m, std::size_t p, double share) {
+    bool isLight = false;
+    eachEntry(rows, p, [&](std::size_t, std::size_t entry) {
+      isLight = isLight || light[static_cast<std::size_t>(rows.node[entry])] != 0;
+    });
+    const std::vector<double> weight =
+        isLight ? tangentsAt(rows, p, markers.X[m] - x[p]) : weightsBeside(grid, markers.X[m], x[p]);
+    eachEntry(rows, p, [&](std::size_t a, std::size_t entry) {
+      int column = rows.node[entry];
+      if (const std::uint8_t flip = rows.flip[entry]; flip != 0) {
+        const auto [place, isNew] =
+            columnOf.try_emplace({column, flip}, nodes + static_cast<int>(markers.images.size()));
+        if (isNew) markers.images.push_back({column, flip});
+        column = place->second;
       }
-    }
-  }
+      map[m].emplace_back(column, share * weight[a]);
+    });
+  });
   markers.map = cg::fromRows(nodes + static_cast<int>(markers.images.size()), map);
 }
 

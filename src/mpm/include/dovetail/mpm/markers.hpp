@@ -22,9 +22,9 @@ struct NodeImage {
 };
 
 /// Markers go with the nodes that the points next to them reach: x = X + S u, a mean over these points of the functions
-/// that the nodes have at the point, as polynomials up to the marker (weightsBeside). Rows sum to one and reproduce
-/// linear fields, so that forces at markers, which go to the nodes by the transpose, keep their sum and their moment.
-/// No node of them is without mass.
+/// that the nodes have at the point, as polynomials up to the marker (weightsBeside), or where a node has little mass
+/// there, as tangents. Rows sum to one and reproduce linear fields, so that forces at markers, which go to the nodes by
+/// the transpose, keep their sum and their moment.
 struct Markers {
   std::vector<Vec3> X;  ///< m, as the grid was laid out
   cg::Projection map;   ///< S: markers × nodes, behind which there are `images`
