@@ -72,8 +72,8 @@ double Points::renewNodes(Nodes& nodes, double t) {
 
 void Points::save(ByteWriter& archive) const {
   archive(carried_.x, carried_.v, carried_.moment, F0_, laidAt_, renewals_);
-  answers_.save(archive);
   for (const auto& [anchors, markers] : marked_) archive(markers.X);
+  answers_.save(archive);
 }
 
 std::size_t Points::addMarkers(std::span<const Vec3> x) {
@@ -108,12 +108,12 @@ void Points::load(ByteReader& archive) {
     throw InputError("the state is that of other points", options_.name, "load it into the model that wrote it");
   if (!finite(read.x) || !finite(read.v) || !finite(read.moment) || !finite(F0) || !std::isfinite(laidAt))
     throw InputError("the state is not finite", options_.name, "take an older one");
-  answers_.load(archive);
   for (std::size_t set = 0; set < marked.size(); ++set) {
     archive(marked[set]);
     if (marked[set].size() != marked_[set].markers.X.size() || !finite(marked[set]))
       throw InputError("the state has other markers", options_.name, "load it into the model that wrote it");
   }
+  answers_.load(archive);
   for (std::size_t set = 0; set < marked.size(); ++set) marked_[set].markers.X = std::move(marked[set]);
   carried_ = std::move(read);
   F0_ = std::move(F0);
