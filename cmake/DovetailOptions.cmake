@@ -5,6 +5,7 @@ option(DOVETAIL_EXAMPLES "Build the examples" ${PROJECT_IS_TOP_LEVEL})
 option(DOVETAIL_INSTALL "Install the libraries, headers and package files" ${PROJECT_IS_TOP_LEVEL})
 option(DOVETAIL_WARNINGS_AS_ERRORS "Treat warnings as errors" OFF)
 option(DOVETAIL_PRECOMPILED_HEADERS "Precompile the standard library and Eigen; builds faster" ${PROJECT_IS_TOP_LEVEL})
+option(DOVETAIL_UNITY_BUILD "Compile files several at once where no step runs them; builds faster as a whole" OFF)
 option(DOVETAIL_FP_CONTRACT "Let the compiler fuse a*b+c; faster, but digits then differ from other builds" OFF)
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)

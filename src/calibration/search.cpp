@@ -17,9 +17,9 @@ constexpr int rounds = 4;
 /// Samples of a measure along one parameter.
 using Line = std::map<double, double>;
 
-class Search {
+class LineSearch {
 public:
-  Search(std::span<const FitParameter> parameters, const Measure& measure, const SearchOptions& settings)
+  LineSearch(std::span<const FitParameter> parameters, const Measure& measure, const SearchOptions& settings)
       : parameters_(parameters), measure_(measure), settings_(settings) {
     for (const FitParameter& p : parameters) found_.value.push_back(p.start);
   }
@@ -98,7 +98,7 @@ Optimum searchOptimum(std::span<const FitParameter> parameters, const Measure& m
     if (!(p.least < p.most && p.least <= p.start && p.start <= p.most))
       throw InputError("the start " + formatNumber(p.start) + " does not lie between bounds in order", p.name,
                        "give least < most, and a start between them");
-  return Search(parameters, measure, settings).run();
+  return LineSearch(parameters, measure, settings).run();
 }
 
 }  // namespace dovetail::calibration

@@ -9,13 +9,6 @@ namespace {
 
 using namespace test;
 
-void excite(dem::Particles& particles) {
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double y = particles.x[i].y;
-    if (y < 0.5) particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
-  }
-}
-
 SceneOptions sceneOf(ConstraintKind kind, double width = 0.0) {
   SceneOptions o;
   o.coupling.constraint = kind;

@@ -22,13 +22,6 @@ struct Case {
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 /// A pulse that runs from the particles into the solid, oblique to the bar.
-void excite(dem::Particles& particles) {
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const double y = particles.x[i].y;
-    if (y < 0.5) particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
-  }
-}
-
 TieRun started(const Case& c, double dt, bool hold = true, double width = 0.0) {
   SceneOptions o;
   o.across = 1;

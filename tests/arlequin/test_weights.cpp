@@ -10,10 +10,10 @@ namespace dovetail::arlequin {
 namespace {
 
 using namespace test;
-constexpr std::array shapes = {WeightProfile::halfCosine, WeightProfile::linear, WeightProfile::smooth};
+constexpr std::array profiles = {WeightProfile::halfCosine, WeightProfile::linear, WeightProfile::smooth};
 
 TEST(Weights, ProfilesFallFromOneToZeroWithTheStatedSlope) {
-  for (const WeightProfile shape : shapes) {
+  for (const WeightProfile shape : profiles) {
     EXPECT_EQ(profile(shape, -0.1), 1.0);
     EXPECT_EQ(profile(shape, 1.1), 0.0);
     EXPECT_NEAR(profile(shape, 0.5), 0.5, 1e-15);

@@ -1,6 +1,7 @@
 // A run of particles, a solid and an overlap, and scenes for it.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <memory>
 
@@ -14,6 +15,14 @@
 #include "scenes.hpp"
 
 namespace dovetail::arlequin::test {
+
+/// A wave in the grains, with a stretch that grows along them.
+inline void excite(dem::Particles& particles) {
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const double y = particles.x[i].y;
+    if (y < 0.5) particles.v[i] = {0.002 * y, 0.1 * std::sin(2.0 * 3.14159265 * y), 0.001};
+  }
+}
 
 /// A coupled run with one solid and one tie, and what the supports of the solid do.
 struct TieRun {

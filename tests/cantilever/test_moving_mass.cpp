@@ -15,7 +15,7 @@ ModalOptions withModes(int modes) {
   return settings;
 }
 
-ModalOptions bernoulli() {
+ModalOptions bernoulliModes() {
   ModalOptions settings = withModes(24);
   settings.theory.shear = settings.theory.rotaryInertia = settings.surfaceOffset = settings.largeRotations = false;
   return settings;
@@ -67,15 +67,15 @@ TEST(MovingMass, TheDefaultModesAreWithinFifteenMillisecondsOfTheLimit) {
 }
 
 TEST(MovingMass, BernoulliBeamLeavesWhenAnIndependentModelDoes) {
-  const DynamicReference soft = simulateMovingMassBeam(BeamCase{}, bernoulli());
+  const DynamicReference soft = simulateMovingMassBeam(BeamCase{}, bernoulliModes());
   EXPECT_NEAR(soft.leaveTime, 35.49, 0.015);
-  EXPECT_NEAR(simulateMovingMassBeam({.bendingFactor = 1.125}, bernoulli()).leaveTime, 36.67, 0.015);
+  EXPECT_NEAR(simulateMovingMassBeam({.bendingFactor = 1.125}, bernoulliModes()).leaveTime, 36.67, 0.015);
   EXPECT_NEAR(errorFromStatic(pairSamples(BeamCase{}, soft), BeamCase{}).mean, 0.48e-3, 0.02e-3);
 }
 
 TEST(MovingMass, EveryEffectHasItsSign) {
   const BeamCase beam;
-  ModalOptions settings = bernoulli();
+  ModalOptions settings = bernoulliModes();
   settings.modes = 12;
   const double plain = simulateMovingMassBeam(beam, settings).leaveTime;
   settings.theory.shear = settings.theory.rotaryInertia = true;

@@ -17,7 +17,7 @@ using testing::dense;
 using testing::RandomState;
 using testing::TestSurface;
 
-constexpr KernelShape shapes[] = {KernelShape::lucy, KernelShape::gauss};
+constexpr KernelShape kernelShapes[] = {KernelShape::lucy, KernelShape::gauss};
 constexpr KernelCorrection corrections[] = {KernelCorrection::none, KernelCorrection::linear};
 using Barycentric = std::array<double, 3>;
 
@@ -58,7 +58,7 @@ TEST(SurfaceKernel, RowsSumToOneAndAreSortedForEveryWidth) {
   const TestSurface s = boxSurface({2, 6, 2}, {0.8, 2.4, 0.8});
   RandomState random(1);
   for (double width : {0.0, 1e-300, 1e-15, 1e-9, 1e-3, 0.1, 0.4, 2.0, 1e3, 1e12})
-    for (KernelShape shape : shapes)
+    for (KernelShape shape : kernelShapes)
       for (KernelCorrection correction : corrections)
         for (int trial = 0; trial < 5; ++trial) {
           const int facet = static_cast<int>(random.number(0.0, static_cast<double>(s.facets.size()) - 1e-6));
@@ -92,7 +92,7 @@ TEST(SurfaceKernel, TendsToTheLocalMapWithTheWidthAndReachesItAtZero) {
   const TestSurface s = boxSurface({2, 4, 2}, {0.8, 1.6, 0.8});
   // A corner and an edge of a facet, where neighbours share the support at every width, and a point inside.
   for (const Barycentric& b : {Barycentric{1.0, 0.0, 0.0}, Barycentric{0.4, 0.6, 0.0}, Barycentric{0.5, 0.2, 0.3}})
-    for (KernelShape shape : shapes)
+    for (KernelShape shape : kernelShapes)
       for (KernelCorrection correction : corrections) {
         const Row local = localAt(s, 21, b);
         for (double width = 0.4; width > 1e-14; width *= 0.25) {

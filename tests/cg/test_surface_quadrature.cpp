@@ -17,14 +17,14 @@ using testing::TestSurface;
 
 constexpr int top = 5;
 
-struct Row {
+struct QuadratureRow {
   std::vector<int> column;
   std::vector<double> weight;
   bool spread = false;
 };
 
-Row rowAt(SurfaceKernelQuadrature& quadrature, const Vec3& centre, int patch = top) {
-  Row row;
+QuadratureRow rowAt(SurfaceKernelQuadrature& quadrature, const Vec3& centre, int patch = top) {
+  QuadratureRow row;
   row.spread =
       quadrature.row(centre, patch, std::vector<int>{3, 8}, std::vector<double>{0.25, 0.75}, row.column, row.weight);
   return row;
@@ -64,7 +64,7 @@ TEST(SurfaceQuadrature, RowsSumToOneStayOnThePatchAndAreNonNegative) {
   for (double width : {0.3, 0.8, 5.0}) {
     auto quadrature = make(s, width, KernelCorrection::none);
     for (int trial = 0; trial < 50; ++trial) {
-      const Row row = rowAt(quadrature, {random.number(0.0, 0.8), random.number(0.0, 2.4), 0.8});
+      const QuadratureRow row = rowAt(quadrature, {random.number(0.0, 0.8), random.number(0.0, 2.4), 0.8});
       EXPECT_TRUE(row.spread);
       double sum = 0.0;
       for (double w : row.weight) sum += w;
@@ -81,7 +81,7 @@ TEST(SurfaceQuadrature, FallsBackToTheLocalRowBetweenPoints) {
   for (double width : {0.0, 1e-3}) {
     for (KernelCorrection correction : {KernelCorrection::none, KernelCorrection::linear}) {
       auto quadrature = make(s, width, correction);
-      const Row row = rowAt(quadrature, {0.2, 0.2, 0.8});
+      const QuadratureRow row = rowAt(quadrature, {0.2, 0.2, 0.8});
       EXPECT_FALSE(row.spread);
       EXPECT_EQ(row.column, (std::vector<int>{3, 8}));
       EXPECT_EQ(row.weight, (std::vector<double>{0.25, 0.75}));
@@ -96,7 +96,7 @@ TEST(SurfaceQuadrature, CorrectionRestoresFirstMoments) {
   for (double width : {0.4, 0.8, 5.0}) {
     auto corrected = make(s, width, KernelCorrection::linear), plain = make(s, width, KernelCorrection::none);
     for (const Vec3& centre : {Vec3{0, 0, 0.8}, Vec3{0.4, 0, 0.8}, Vec3{0.31, 0.77, 0.8}}) {
-      const Row row = rowAt(corrected, centre), without = rowAt(plain, centre);
+      const QuadratureRow row = rowAt(corrected, centre), without = rowAt(plain, centre);
       EXPECT_LT(norm(applyRow<Vec3>(row.column, row.weight, s.nodes) - centre), 1e-12);
       EXPECT_GT(norm(applyRow<Vec3>(without.column, without.weight, s.nodes) - centre), 1e-3);
     }
@@ -107,7 +107,7 @@ TEST(SurfaceQuadrature, TooFewPointsForTheCorrectionStillSumToOne) {
   const TestSurface s = boxSurface({1, 1, 1}, {1, 1, 1});
   auto quadrature = make(s, 0.1, KernelCorrection::linear);
   const double g = 0.5 - 0.5 / std::sqrt(3.0);
-  const Row row = rowAt(quadrature, {g + 0.05, g, 1.0});
+  const QuadratureRow row = rowAt(quadrature, {g + 0.05, g, 1.0});
   EXPECT_TRUE(row.spread);
   // One point within the width: its shape functions are all there is.
   const auto weight = dense(row.column, row.weight, s.nodes.size());
@@ -131,7 +131,7 @@ TEST(SurfaceQuadrature, ApproachesTheAdaptiveRowForWideKernels) {
   surfaceKernelRow({{KernelShape::lucy, 2, width}, KernelCorrection::none}, s.vertices, s.facets, s.patchOfFacet,
                    s.localMap, facet, {0.2, 0.3, 0.5}, column, weight);
   auto quadrature = make(s, width, KernelCorrection::none);
-  const Row row = rowAt(quadrature, centre);
+  const QuadratureRow row = rowAt(quadrature, centre);
   const auto fine = dense(column, weight, s.nodes.size()), coarse = dense(row.column, row.weight, s.nodes.size());
   const double largest = *std::max_element(fine.begin(), fine.end());
   for (std::size_t i = 0; i < fine.size(); ++i) EXPECT_NEAR(coarse[i], fine[i], 0.02 * largest);

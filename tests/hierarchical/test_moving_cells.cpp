@@ -30,19 +30,19 @@ struct Moving : Biaxial {
   }
 };
 
-constexpr double dt = 2e-5;
+constexpr double shortStep = 2e-5;
 
 TEST(DynamicCells, PointsOfARunAreStandAloneCellsToTheLastBit) {
   Moving body;
-  fem::ExplicitIntegrator run(body.model, dt);
+  fem::ExplicitIntegrator run(body.model, shortStep);
   std::vector<rve::Rve> cells;
   for (int p = 0; p < 8; ++p) cells.push_back(threeCells()[static_cast<std::size_t>(p / 4 + p % 4) % 3]);
   for (int k = 0; k < 50; ++k) {
     run.step();
-    const auto sample = body.solid->sample(body.model.nodes, {body.model.t, dt});
+    const auto sample = body.solid->sample(body.model.nodes, {body.model.t, shortStep});
     for (std::size_t p = 0; p < cells.size(); ++p) stepTo(cells[p], matrixAt(sample.F, p), {});
   }
-  const auto sample = body.solid->sample(body.model.nodes, {body.model.t, dt});
+  const auto sample = body.solid->sample(body.model.nodes, {body.model.t, shortStep});
   for (std::size_t p = 0; p < cells.size(); ++p) EXPECT_EQ(matrixAt(sample.P, p), rve::nominalStress(cells[p]));
 }
 
@@ -113,7 +113,7 @@ TEST(DynamicCells, RunsStepThemInPlaceWithTheSameDigits) {
     Moving inPlace;
     Biaxial kept({1, 2}, doubting, fem::ElementShape::quad4, 0.05);
     fem::addMass(kept.model);
-    fem::ExplicitIntegrator one(inPlace.model, dt, options), other(kept.model, dt, options);
+    fem::ExplicitIntegrator one(inPlace.model, shortStep, options), other(kept.model, shortStep, options);
     one.run(40), other.run(40);
     EXPECT_EQ(doubting->told, 40);
     EXPECT_EQ(inPlace.model.nodes.u, kept.model.nodes.u);
@@ -124,13 +124,13 @@ TEST(DynamicCells, RunsStepThemInPlaceWithTheSameDigits) {
 
 TEST(DynamicCells, EnergiesReadBetweenStepsDisturbNothing) {
   Moving booked, spared, read;
-  fem::ExplicitIntegrator one(booked.model, dt), other(spared.model, dt, {.energyEvery = 0}),
-      looked(read.model, dt, {.energyEvery = 0});
+  fem::ExplicitIntegrator one(booked.model, shortStep), other(spared.model, shortStep, {.energyEvery = 0}),
+      looked(read.model, shortStep, {.energyEvery = 0});
   for (int k = 0; k < 4; ++k) {
     one.run(10), other.run(10), looked.run(10);
-    const double energy = booked.solid->energy(booked.model.nodes, {booked.model.t, dt});
+    const double energy = booked.solid->energy(booked.model.nodes, {booked.model.t, shortStep});
     EXPECT_GT(energy, 0.0);
-    EXPECT_EQ(read.solid->energy(read.model.nodes, {read.model.t, dt}), energy);
+    EXPECT_EQ(read.solid->energy(read.model.nodes, {read.model.t, shortStep}), energy);
   }
   EXPECT_EQ(booked.model.nodes.u, spared.model.nodes.u);
   EXPECT_EQ(booked.model.nodes.u, read.model.nodes.u);
@@ -138,7 +138,7 @@ TEST(DynamicCells, EnergiesReadBetweenStepsDisturbNothing) {
 
 TEST(DynamicCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
   Moving whole, first, second;
-  fem::ExplicitIntegrator all(whole.model, dt), before(first.model, dt), after(second.model, dt);
+  fem::ExplicitIntegrator all(whole.model, shortStep), before(first.model, shortStep), after(second.model, shortStep);
   all.run(60);
   before.run(25);
   ByteWriter archive;
@@ -155,7 +155,7 @@ TEST(DynamicCells, RunsGoOnFromBytesOnAnyNumberOfThreads) {
 
 TEST(DynamicCells, EnergyIsBalancedAcrossTheScales) {
   Moving body;
-  fem::ExplicitIntegrator run(body.model, dt);
+  fem::ExplicitIntegrator run(body.model, shortStep);
   run.run(500);
   const EnergyLedger& ledger = run.ledger();
   EXPECT_GT(ledger.joules("dissipated by sand"), 1e-3);
@@ -164,7 +164,7 @@ TEST(DynamicCells, EnergyIsBalancedAcrossTheScales) {
 
 TEST(DynamicCells, SlowRunsAreNearRest) {
   Moving moving(oneCell(), 0.01);
-  fem::ExplicitIntegrator run(moving.model, dt);
+  fem::ExplicitIntegrator run(moving.model, shortStep);
   run.runUntil(0.02);
   Biaxial resting({1, 2}, cellField(oneCell()), fem::ElementShape::quad4, 0.01);
   fem::solveStatics(resting.model, 0.02, roughly(1e-5, 0.01));

@@ -8,12 +8,12 @@
 namespace dovetail::scene::test {
 namespace {
 
-const std::string block =
+const std::string boundedBlock =
     R"("solids": [{"name": "b", "mesh": "box", "cells": [4, 2, 2], "box": [[0, 0, 0], [4, 2, 2]],
       "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},)";
 
 TEST(SceneSets, HoldTheNodesAndFacesOfTheirPlace) {
-  const Built built = build(sceneOf(block + R"("sets": [
+  const Built built = build(sceneOf(boundedBlock + R"("sets": [
       {"name": "left", "place": "side", "side": "x-"},
       {"name": "corner", "place": "box", "box": [[-1, -1, -1], [1.5, 1.5, 0.5]]},
       {"name": "slice", "place": "plane", "point": [2, 0, 0], "normal": [1, 0, 0]},
@@ -31,8 +31,8 @@ TEST(SceneSets, HoldTheNodesAndFacesOfTheirPlace) {
 }
 
 TEST(SceneSets, ServeSupportsLoadsAndCouplings) {
-  Built built =
-      started(sceneOf(block + R"("sets": [{"name": "foot", "place": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]},
+  Built built = started(
+      sceneOf(boundedBlock + R"("sets": [{"name": "foot", "place": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]},
         {"name": "roof", "place": "side", "side": "z+"}],
       "supports": [{"on": "foot"}], "loads": [{"type": "pressure", "on": "roof", "pressure": "1 kPa"}]}],
       "particles": [{"from": "list", "density": 2500, "spheres": [{"at": [2, 1, 2.09], "radius": 0.1}]}],
@@ -44,15 +44,15 @@ TEST(SceneSets, ServeSupportsLoadsAndCouplings) {
 
 TEST(SceneSets, EmptyAndDoubleOnesAreRefused) {
   expectParts(
-      refusalOfRun(block + R"("sets": [{"name": "a", "place": "sphere", "centre": [9, 9, 9], "radius": 1}]}],)"),
+      refusalOfRun(boundedBlock + R"("sets": [{"name": "a", "place": "sphere", "centre": [9, 9, 9], "radius": 1}]}],)"),
       {"no nodes in this place", "sets.0"});
-  expectParts(refusalOfRun(block + R"("sets": [{"name": "x-", "place": "side", "side": "x-"}]}],)"),
+  expectParts(refusalOfRun(boundedBlock + R"("sets": [{"name": "x-", "place": "side", "side": "x-"}]}],)"),
               {"has a set \"x-\"", "sets.0"});
-  expectParts(refusalOfRun(block + R"("loads": [{"type": "traction", "on": "top", "traction": [0, 0, 1]}]}],)"),
+  expectParts(refusalOfRun(boundedBlock + R"("loads": [{"type": "traction", "on": "top", "traction": [0, 0, 1]}]}],)"),
               {"\"top\"", "loads.0"});
-  expectParts(
-      refusalOfRun(block + R"("sets": [{"name": "s", "place": "plane", "point": [0, 0, 0], "normal": [0, 0, 0]}]}],)"),
-      {"no length", "sets.0"});
+  expectParts(refusalOfRun(boundedBlock +
+                           R"("sets": [{"name": "s", "place": "plane", "point": [0, 0, 0], "normal": [0, 0, 0]}]}],)"),
+              {"no length", "sets.0"});
 }
 
 TEST(SceneSets, TiesPassUniformStrain) {

@@ -54,7 +54,7 @@ TEST(SceneCompany, WhatIsThereTwiceOrCancels) {
   const std::string plane = R"({"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]})";
   expectParts(warningsOf(grain + R"("walls": [)" + plane + "," + plane + "],"), {"walls.0 and walls.1 are identical"});
   const auto loaded = [](const std::string& loads) {
-    return warningsOf(block + R"(, "loads": [)" + loads + "]" + onBlock +
+    return warningsOf(heldBlock + R"(, "loads": [)" + loads + "]" + onBlock +
                       spheres(R"({"at": [0.5, 0.5, 1.1], "radius": 0.1})"));
   };
   const auto pressure = [](const std::string& on, const std::string& value) {
@@ -67,7 +67,7 @@ TEST(SceneCompany, WhatIsThereTwiceOrCancels) {
 
 TEST(SceneCompany, ProbesFarFromWhatTheyFollow) {
   const auto of = [](const std::string& probe) {
-    return warningsOf(grain + block + onBlock + R"("output": {"series": 1e-4, "probes": [{"name": "p", )" + probe +
+    return warningsOf(grain + heldBlock + onBlock + R"("output": {"series": 1e-4, "probes": [{"name": "p", )" + probe +
                       "}]},");
   };
   expectParts(of(R"("of": "node", "solid": "b", "at": [101, 1, 1])"),
@@ -93,7 +93,7 @@ TEST(SceneCompany, InsertionsWhereNobodyCanEnter) {
 
 TEST(SceneCompany, SolidsThatNoGrainsComeTo) {
   const auto of = [](const std::string& places, const std::string& more = "") {
-    return warningsOf(block + onBlock + spheres(places) + more);
+    return warningsOf(heldBlock + onBlock + spheres(places) + more);
   };
   expectParts(of(R"({"at": [50, 0.5, 2], "radius": 0.1})"), {"No grains can reach \"b\"", "does nothing"});
   expectParts(of(R"({"at": [0.5, 0.5, 90], "radius": 0.1})"), {"No grains can reach \"b\""});
@@ -131,22 +131,22 @@ TEST(SceneCompany, PartsThatDoNothing) {
   expectParts(warningsOf(grain + R"("walls": [{"shape": "box", "box": [[0, 0, 0], [1, 1, 1]],
       "open": ["x-", "x+", "y-", "y+", "z-", "z+"]}],)"),
               {"walls.0 is a box with all six sides open"});
-  expectParts(warningsOf(block + onBlock), {"The scene has no grains, so that the coupling of \"b\" does nothing"});
+  expectParts(warningsOf(heldBlock + onBlock), {"The scene has no grains, so that the coupling of \"b\" does nothing"});
   const std::string above = spheres(R"({"at": [0.5, 0.5, 1.1], "radius": 0.1, "velocity": [0, 0, -1]})");
   const auto on = [&](const std::string& faces) {
-    return warningsOf(block + replaced(onBlock, R"("surface",)", R"("surface", "on": ")" + faces + "\",") + above);
+    return warningsOf(heldBlock + replaced(onBlock, R"("surface",)", R"("surface", "on": ")" + faces + "\",") + above);
   };
   expectParts(on("z-"), {"All grains are behind the faces \"z-\" of \"b\"", "couplings.0"});
   EXPECT_EQ(on("z+"), "");
-  expectParts(warningsOf(block + replaced(onBlock, "\"advised\"", "1e-9") + above),
+  expectParts(warningsOf(heldBlock + replaced(onBlock, "\"advised\"", "1e-9") + above),
               {"1e-09 m wide, far below an element"});
-  expectParts(refusalOfRun(replaced(block, R"("on": "z-")", R"("on": "z-", "components": [])") + onBlock + above),
+  expectParts(refusalOfRun(replaced(heldBlock, R"("on": "z-")", R"("on": "z-", "components": [])") + onBlock + above),
               {"components is empty, and the support on \"z-\" holds nothing", "solids.0"});
 }
 
 TEST(SceneCompany, GrainsThatFlyAway) {
   const auto of = [](const std::string& velocity) {
-    return warningsOf(block + onBlock +
+    return warningsOf(heldBlock + onBlock +
                       spheres(R"({"at": [0.5, 0.5, 1.2], "radius": 0.1, "velocity": [0, 0, )" + velocity + "]}"));
   };
   expectParts(of("50"), {"No grains can reach \"b\""});
@@ -171,8 +171,8 @@ TEST(SceneCompany, PartsThatDoNotGoWithAPeriod) {
   expectParts(of("1", R"("domain": {"box": [[0, 0, 0], [0.5, 1, 1]]},)"),
               {"domain.box does not span the period along x"});
   EXPECT_EQ(of("1", R"("domain": {"box": [[0, 0, 0], [1, 0.5, 1]]},)"), "");
-  expectParts(of("0.5", block + onBlock), {"The solid \"b\" is 1 m wide along x, where the period is 0.5 m"});
-  EXPECT_EQ(of("1", block + onBlock).find("wide along"), std::string::npos);
+  expectParts(of("0.5", heldBlock + onBlock), {"The solid \"b\" is 1 m wide along x, where the period is 0.5 m"});
+  EXPECT_EQ(of("1", heldBlock + onBlock).find("wide along"), std::string::npos);
   expectParts(of("1", R"("gravity": [1, 0, 0],)"), {"Gravity acts along x, which is periodic"});
   expectParts(of("1", R"("gravity": [1, 0, 0],)" + ground), {"Gravity acts along x, which is periodic"});
   EXPECT_EQ(of("1", R"("gravity": [0.01, 0, -0.01],)" + ground), "");
@@ -180,14 +180,15 @@ TEST(SceneCompany, PartsThatDoNotGoWithAPeriod) {
 
 TEST(SceneCompany, SolidsThatMoveIntoEachOtherOrHoldAnInsertion) {
   const auto of = [](const std::string& velocity) {
-    return warningsOf(block + R"(}, {"name": "ram", "mesh": "box", "cells": [1, 1, 1], "box": [[0, 0, 1.1], [1, 1, 2]],
+    return warningsOf(heldBlock +
+                      R"(}, {"name": "ram", "mesh": "box", "cells": [1, 1, 1], "box": [[0, 0, 1.1], [1, 1, 2]],
         "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},
         "velocity": [0, 0, )" +
                       velocity + "]" + onBlock);
   };
   expectParts(of("-101"), {"\"b\" and \"ram\" move into each other and will overlap"});
   EXPECT_EQ(of("-99").find("move into"), std::string::npos);
-  expectParts(warningsOf(block + onBlock + R"("insertions": [{"density": 2500, "number_per_second": 10000,
+  expectParts(warningsOf(heldBlock + onBlock + R"("insertions": [{"density": 2500, "number_per_second": 10000,
       "radius": {"smallest": 0.01, "largest": 0.01}, "region": [[0, 0, 0], [1, 1, 0.9]]}],)"),
               {"100 % of the region of insertions.0 lies in \"b\""});
 }
@@ -239,7 +240,7 @@ TEST(SceneMessages, WallsThatDoNotRepeatAreNamed) {
 
 TEST(SceneMessages, HaveWordsOfScenes) {
   const auto of = [](const std::string& keys) {
-    return refusalOfRun(replaced(block, R"("cells")", keys + R"(, "cells")") + onBlock);
+    return refusalOfRun(replaced(heldBlock, R"("cells")", keys + R"(, "cells")") + onBlock);
   };
   for (const std::string& message :
        {of(R"("cell": "tet4", "formulation": "enhanced")"), of(R"("cell": "tet4", "formulation": "mean-dilatation")"),
@@ -267,12 +268,12 @@ TEST(SceneMessages, TellTheCauseAndNotWhatItLeadsTo) {
   expectParts(of(replaced(grain, "0.1, 0.1, 0.1", "9, 9, 9") +
                  R"("domain": {"box": [[0, 0, 0], [1, 1, 1]], "escape": "remove"},)"),
               {"all grains lie outside of the domain"});
-  const std::string block =
+  const std::string heldBlock =
       R"("solids": [{"name": "b", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 1, 1]],
       "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},
       "sets": [{"name": "mid", "place": "plane", "point": [0, 0, 0.5], "normal": [0, 0, 1]}],
       "loads": [{"on": "mid", "type": "pressure", "pressure": 1}]}],)";
-  expectParts(of(block), {"this set has nodes", "mid"});
+  expectParts(of(heldBlock), {"this set has nodes", "mid"});
   if (!WITH_EXPRESSIONS) return;
   expectParts(of(R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1],
       "displacement": [0, 0, "0*sin(t)/t"]}],)"),

@@ -20,7 +20,8 @@
 namespace dovetail::scene::test {
 namespace {
 
-const std::string block = R"("solids": [{"name": "s", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 2, 3]],
+const std::string stretchedBlock =
+    R"("solids": [{"name": "s", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 2, 3]],
   "material": {"law": "St-Venant-Kirchhoff", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}}],)";
 
 /// Every node goes to F X.
@@ -33,7 +34,7 @@ void deform(fem::Nodes& nodes, const std::array<double, 9>& F) {
 }
 
 TEST(FrameFields, StressIsThatOfTheLaw) {
-  Built built = build(sceneOf(block));
+  Built built = build(sceneOf(stretchedBlock));
   std::mt19937 random(5);
   std::uniform_real_distribution<double> small(-0.2, 0.2);
   std::array<double, 9> F{1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -57,7 +58,7 @@ TEST(FrameFields, StressIsThatOfTheLaw) {
 
 /// A turn of a stretched body: its axis and angle, and F itself at every point.
 TEST(FrameFields, PointsHaveDeformationAndTurn) {
-  const Built built = build(sceneOf(block));
+  const Built built = build(sceneOf(stretchedBlock));
   fem::Model& model = *built.run->solid(0).model;
   const Eigen::Vector3d turn = Eigen::Vector3d(0.3, -0.5, 0.2);
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
@@ -103,8 +104,8 @@ TEST(FrameFields, PlasticStrainIsWhatWasDissipated) {
   }
   EXPECT_GT(sum, 1.0);
   EXPECT_NEAR(sum, dissipated, 1e-3 * dissipated);  // of second order in the strain
-  const Built elastic = build(sceneOf(block));
-  EXPECT_TRUE(historyAt(pointsOf(*elastic.run->solid(0).model), sceneOf(block).solids[0]).empty());
+  const Built elastic = build(sceneOf(stretchedBlock));
+  EXPECT_TRUE(historyAt(pointsOf(*elastic.run->solid(0).model), sceneOf(stretchedBlock).solids[0]).empty());
 }
 
 const std::string grains = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],

@@ -33,7 +33,7 @@ Words poured(const ScratchFolder& folder, const std::string& time, const Words& 
 }
 
 /// All but what tells times, or of the way.
-std::map<std::string, std::string> digits(const ScratchFolder& folder) {
+std::map<std::string, std::string> digitsOf(const ScratchFolder& folder) {
   auto bytes = everyByte(folder);
   for (const char* const name :
        {"summary.txt", "summary.json", "times.csv", "checkpoint.previous.state", "checkpoint.damaged.state"})
@@ -42,7 +42,7 @@ std::map<std::string, std::string> digits(const ScratchFolder& folder) {
 }
 
 void expectSame(const ScratchFolder& folder, const ScratchFolder& expected, const Words& but = {}) {
-  auto found = digits(folder), right = digits(expected);
+  auto found = digitsOf(folder), right = digitsOf(expected);
   for (const std::string& name : but) found.erase(name), right.erase(name);
   EXPECT_EQ(found.size(), right.size());
   for (const auto& [name, bytes] : right) EXPECT_TRUE(found.contains(name) && found.at(name) == bytes) << name;

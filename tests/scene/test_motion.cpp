@@ -20,7 +20,7 @@ protected:
   }
 };
 
-const std::string block =
+const std::string movedBlock =
     R"("solids": [{"name": "b", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [0.1, 0.2, 0.1]],
       "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},)";
 
@@ -91,7 +91,7 @@ TEST_F(SceneMotion, BooksOfShakenWallsCloseAtSecondOrder) {
 }
 
 TEST_F(SceneMotion, SupportsFollowTheirPaths) {
-  Built built = started(sceneOf(block + R"("supports": [{"on": "x-"},
+  Built built = started(sceneOf(movedBlock + R"("supports": [{"on": "x-"},
       {"on": "x+", "components": ["x"], "displacement": ["sin(100*t)*1e-3", 0, 0]},
       {"on": "x+", "components": ["y"], "velocity": [0, "t", 0]}]}],)"));
   built.run->advance(1000);
@@ -120,7 +120,7 @@ Vec3 forceAt(const fem::Model& model, const std::string& name, double t) {
 }
 
 TEST_F(SceneMotion, LoadsAreThoseOfTheirTime) {
-  Built built = started(sceneOf(block + R"("supports": [{"on": "x-"}], "loads": [
+  Built built = started(sceneOf(movedBlock + R"("supports": [{"on": "x-"}], "loads": [
       {"type": "pressure", "on": "x+", "pressure": "2e3*t"},
       {"type": "pressure", "on": "y+", "pressure": "1 kPa", "follows": false},
       {"type": "traction", "on": "z+", "traction": [0, "5*t", "2 Pa"]}]}],)"));
@@ -135,7 +135,7 @@ TEST_F(SceneMotion, LoadsAreThoseOfTheirTime) {
 }
 
 TEST_F(SceneMotion, GoOnFromAStateWithTheSameDigits) {
-  const Scene scene = sceneOf(R"("let": {"a": 3},)" + block +
+  const Scene scene = sceneOf(R"("let": {"a": 3},)" + movedBlock +
                               R"("supports": [{"on": "x-", "velocity": ["sin(a*100*t)*0.1", 0, 0]}],
         "loads": [{"type": "pressure", "on": "x+", "pressure": "2e3*t"}]
 }],

@@ -90,7 +90,7 @@ TEST(ScenePlausible, BondsThatBreakAtOnceOrOnlyCreep) {
 
 TEST(ScenePlausible, StrengthAboveTheModulus) {
   const auto of = [](const std::string& stress) {
-    return warningsOf(replaced(block, R"("neo-Hookean")", R"("J2", "yield_stress": )" + stress) +
+    return warningsOf(replaced(heldBlock, R"("neo-Hookean")", R"("J2", "yield_stress": )" + stress) +
                       R"(, "formulation": "enhanced")" + onBlock + onTop);
   };
   expectParts(of("1e7"),
@@ -110,14 +110,14 @@ TEST(ScenePlausible, OneFaultOfManyItemsIsToldOnce) {
 }
 
 TEST(ScenePlausible, SoundThatNoMaterialHas) {
-  expectParts(warningsOf(replaced(block, "1e6", "500") + onBlock + onTop), {"Waves in \"b\" travel at 0.707 m/s"});
-  EXPECT_EQ(warningsOf(replaced(block, "1e6", "5000") + onBlock + onTop), "");
+  expectParts(warningsOf(replaced(heldBlock, "1e6", "500") + onBlock + onTop), {"Waves in \"b\" travel at 0.707 m/s"});
+  EXPECT_EQ(warningsOf(replaced(heldBlock, "1e6", "5000") + onBlock + onTop), "");
 }
 
 TEST(ScenePlausible, ElementsThatLock) {
   const auto of = [](const std::string& poisson, const std::string& formulation, const std::string& cell,
                      const std::string& material = "neo-Hookean") {
-    return warningsOf(replaced(replaced(replaced(block, "0.3", poisson), "neo-Hookean", material), R"("cells")",
+    return warningsOf(replaced(replaced(replaced(heldBlock, "0.3", poisson), "neo-Hookean", material), R"("cells")",
                                R"("formulation": ")" + formulation + R"(", "cell": ")" + cell + R"(", "cells")") +
                       onBlock + onTop);
   };

@@ -7,7 +7,7 @@
 namespace dovetail::scene::test {
 namespace {
 
-std::string blockWith(const std::string& supports) {
+std::string plateHeldBy(const std::string& supports) {
   return R"("solids": [{"name": "b", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 1, 1]],
       "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000},
       "supports": [)" +
@@ -20,20 +20,20 @@ TEST(SceneSupports, ThatShareNodesMayAskForTheSame) {
         R"({"on": "x-", "velocity": [0, 0, 1]}, {"on": "z-", "velocity": [0, 0, 1]})",
         R"({"on": "x-"}, {"on": "z-", "displacement": [0, 0, 0]})",
         R"({"on": "x-", "components": ["x"]}, {"on": "z-", "components": ["z"], "velocity": [0, 0, 1]})"})
-    EXPECT_EQ(refusalOfRun(blockWith(pair)), "") << pair;
+    EXPECT_EQ(refusalOfRun(plateHeldBy(pair)), "") << pair;
   if (!WITH_EXPRESSIONS) return;
   for (const char* const pair :
        {R"({"on": "x-", "displacement": [0, 0, "0.1*t"]}, {"on": "z-", "displacement": [0, 0, "t/10"]})",
         R"({"on": "x-", "displacement": [0, 0, "0.1*t"]}, {"on": "z-", "velocity": [0, 0, 0.1]})",
         R"({"on": "x-", "displacement": [0, 0, "0.1*t^2"]}, {"on": "z-", "velocity": [0, 0, "0.2*t"]})",
         R"({"on": "x-"}, {"on": "z-", "displacement": ["0", "0*t", 0]})"})
-    EXPECT_EQ(refusalOfRun(blockWith(pair)), "") << pair;
+    EXPECT_EQ(refusalOfRun(plateHeldBy(pair)), "") << pair;
 }
 
 TEST(SceneSupports, ThatContradictEachOtherAreRefused) {
   const auto refused = [](const char* pair) {
-    expectParts(refusalOfRun(blockWith(pair)), {"component z of the node at (0, 0, 0) m", "supports item 0 on \"x-\"",
-                                                "leave \"z\" out of the components", "supports.1"});
+    expectParts(refusalOfRun(plateHeldBy(pair)), {"component z of the node at (0, 0, 0) m", "supports item 0 on \"x-\"",
+                                                  "leave \"z\" out of the components", "supports.1"});
   };
   refused(R"({"on": "x-"}, {"on": "z-", "velocity": [0, 0, 1]})");
   refused(R"({"on": "x-", "velocity": [0, 0, 1]}, {"on": "z-"})");
@@ -49,7 +49,7 @@ TEST(SceneSupports, ThatContradictEachOtherAreRefused) {
 TEST(SceneSupports, PathsThatDoNotBeginWhereTheNodesLieAreTold) {
   const auto notesOf = [](const char* support) {
     std::string all;
-    for (const std::string& note : build(sceneOf(blockWith(support))).notes) all += note + "\n";
+    for (const std::string& note : build(sceneOf(plateHeldBy(support))).notes) all += note + "\n";
     return all;
   };
   expectParts(notesOf(R"({"on": "z-"}, {"on": "z+", "displacement": [0, 0, 0.001]})"),
@@ -88,24 +88,26 @@ std::string refusalOfTied(const std::string& keys) {
     return error.what();
   }
 }
-const std::string tie = R"({"nodes": "fine", "faces": "meet", "tolerance": 1e-6})";
+const std::string tieOfFeet = R"({"nodes": "fine", "faces": "meet", "tolerance": 1e-6})";
 
 TEST(SceneSupports, RollersOnPlanesThroughATieAskForTheSame) {
   EXPECT_EQ(refusalOfTied(R"("supports": [{"on": "south", "components": ["y"]}, {"on": "foot", "components": ["z"]}],
-      "ties": [)" + tie + "]"),
+      "ties": [)" + tieOfFeet +
+                          "]"),
             "");
-  EXPECT_EQ(refusalOfTied(R"("supports": [{"on": "foot", "velocity": [0, 1, 0]}], "ties": [)" + tie + "]"), "");
+  EXPECT_EQ(refusalOfTied(R"("supports": [{"on": "foot", "velocity": [0, 1, 0]}], "ties": [)" + tieOfFeet + "]"), "");
 }
 
 TEST(SceneSupports, ThatContradictATieAreRefused) {
-  expectParts(refusalOfTied(R"("supports": [{"on": "fine", "components": ["y"]}], "ties": [)" + tie + "]"),
+  expectParts(refusalOfTied(R"("supports": [{"on": "fine", "components": ["y"]}], "ties": [)" + tieOfFeet + "]"),
               {"component y of the node at (1, 0, 0) m is held by supports item 0 on \"fine\"", "tied to nodes of",
                "\"meet\"", "ties.0"});
   expectParts(refusalOfTied(R"("supports": [{"on": "fine", "components": ["y"]},
       {"on": "coarse", "components": ["y"], "velocity": [0, 1, 0]}], "ties": [)" +
-                            tie + "]"),
+                            tieOfFeet + "]"),
               {"tied to nodes of", "let the support hold those nodes too"});
-  expectParts(refusalOfTied(R"("ties": [)" + tie + ", " + tie + "]"), {"in two ties", "at (1, 0, 0) m", "ties.1"});
+  expectParts(refusalOfTied(R"("ties": [)" + tieOfFeet + ", " + tieOfFeet + "]"),
+              {"in two ties", "at (1, 0, 0) m", "ties.1"});
 }
 
 }  // namespace

@@ -24,16 +24,16 @@ TEST(SceneWarnings, DeepContactsAndGrainsInSolids) {
   const std::string floor = R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 1]}],)";
   expectParts(warningsOf(floor + spheres(R"({"at": [0, 0, 0.08], "radius": 0.1})")), {"20 % (particle 0 with a wall)"});
   EXPECT_EQ(warningsOf(floor + spheres(R"({"at": [0, 0, 0.099], "radius": 0.1})")), "");
-  expectParts(warningsOf(block + onBlock + spheres(R"({"at": [0.5, 0.5, 0.5], "radius": 0.01})")),
+  expectParts(warningsOf(heldBlock + onBlock + spheres(R"({"at": [0.5, 0.5, 0.5], "radius": 0.01})")),
               {"1 grain has its centre in \"b\""});
-  EXPECT_EQ(warningsOf(block + onBlock + spheres(R"({"at": [0.5, 0.5, 1.02], "radius": 0.01})")), "");
+  EXPECT_EQ(warningsOf(heldBlock + onBlock + spheres(R"({"at": [0.5, 0.5, 1.02], "radius": 0.01})")), "");
 }
 
 TEST(SceneWarnings, NamesThatNobodyUses) {
   const std::string sets = R"(, "sets": [{"name": "top", "place": "side", "side": "z+"},
       {"name": "mid", "place": "plane", "point": [0, 0, 0.5], "normal": [0, 0, 1]}],
       "loads": [{"type": "pressure", "on": "top", "pressure": 1}])";
-  const std::string found = warningsOf(block + sets + onBlock);
+  const std::string found = warningsOf(heldBlock + sets + onBlock);
   expectParts(found, {"the set \"mid\" is not used"});
   EXPECT_EQ(found.find("\"top\""), std::string::npos);
   expectParts(
@@ -46,7 +46,7 @@ TEST(SceneWarnings, HertzOnSingleNodesAndSolidsThatFall) {
   const std::string hertz = R"("contact": {"law": "Hertz", "youngs_modulus": 1e6, "poisson_ratio": 0.3},)";
   const auto of = [&](const std::string& kernel, const std::string& supports) {
     return warningsOf(sceneFromText("{" + hertz + R"("gravity": [0, 0, -1],)" +
-                                        replaced(block, R"("supports": [{"on": "z-"}])", supports) +
+                                        replaced(heldBlock, R"("supports": [{"on": "z-"}])", supports) +
                                         replaced(onBlock, "\"advised\"", kernel) + onTop + end + "}",
                                     "s.json", "/"));
   };
@@ -199,7 +199,7 @@ TEST(SceneWarnings, ParametersThatNobodyNames) {
 
 TEST(SceneWarnings, BodiesThatNothingHolds) {
   const auto of = [](const std::string& supports, const std::string& more) {
-    return warningsOf(replaced(block, R"("supports": [{"on": "z-"}])", R"("supports": [)" + supports + "]") + more +
+    return warningsOf(replaced(heldBlock, R"("supports": [{"on": "z-"}])", R"("supports": [)" + supports + "]") + more +
                       "}],");
   };
   const auto loads = [&](const std::string& all) { return of("", R"(, "loads": [)" + all + "]"); };
@@ -213,7 +213,8 @@ TEST(SceneWarnings, BodiesThatNothingHolds) {
   const std::string sides = R"({"on": "x-", "components": ["x"]}, {"on": "y-", "components": ["y"]})";
   const auto pulled = [&](const std::string& supports) {
     return warningsOf(R"("gravity": [0, 0, -9.81],)" +
-                      replaced(block, R"("supports": [{"on": "z-"}])", R"("supports": [)" + supports + "]") + "}],");
+                      replaced(heldBlock, R"("supports": [{"on": "z-"}])", R"("supports": [)" + supports + "]") +
+                      "}],");
   };
   expectParts(pulled(sides), {"Nothing holds \"b\" along z, where gravity pulls"});
   EXPECT_EQ(pulled(sides + R"(, {"on": "z-", "components": ["z"]})"), "");
@@ -245,7 +246,7 @@ TEST(SceneWarnings, RegionsWhereNobodyComes) {
 
 TEST(SceneWarnings, SupportsThatSayNothing) {
   const auto of = [](const std::string& support) {
-    return warningsOf(replaced(block, R"({"on": "z-"})", R"({"on": "z-"},)" + support) + "}],");
+    return warningsOf(replaced(heldBlock, R"({"on": "z-"})", R"({"on": "z-"},)" + support) + "}],");
   };
   expectParts(of(R"({"on": "z+", "components": ["x"], "velocity": [0, 0, 1]})"),
               {"solids.0.supports.1 moves along z, which is not among its components"});
@@ -256,7 +257,7 @@ TEST(SceneWarnings, SupportsThatSayNothing) {
 
 TEST(SceneWarnings, SizesAndPressuresAgainstTheMaterial) {
   const auto of = [](const std::string& from, const std::string& to) {
-    return warningsOf(replaced(block, from, to) + "}],");
+    return warningsOf(replaced(heldBlock, from, to) + "}],");
   };
   expectParts(of("[1, 1, 1]]", "[1, 1, 0.001]]"), {"Element 0 of \"b\" is 1000 times as long as it is high"});
   expectParts(of(R"("supports")", R"("loads": [{"on": "x+", "type": "pressure", "pressure": 2e6}], "supports")"),
@@ -270,7 +271,7 @@ TEST(SceneWarnings, SizesAndPressuresAgainstTheMaterial) {
 TEST(SceneWarnings, SolidsThatGoThroughFloors) {
   const auto of = [](const std::string& velocity) {
     return warningsOf(R"("walls": [{"shape": "plane", "point": [0, 0, -0.001], "normal": [0, 0, 1]}],)" +
-                      replaced(block, R"("supports": [{"on": "z-"}])", R"("velocity": [0, 0, )" + velocity + "]") +
+                      replaced(heldBlock, R"("supports": [{"on": "z-"}])", R"("velocity": [0, 0, )" + velocity + "]") +
                       "}],");
   };
   expectParts(of("-2"), {"\"b\" moves into walls.0 and will pass through it"});
@@ -309,7 +310,7 @@ TEST(SceneWarnings, StagesThatAreTooShort) {
 
 /// What hinders the start is seldom all that is wrong.
 TEST(SceneWarnings, AreToldBesideARefusal) {
-  const Scene scene = sceneOf(replaced(block, "[1, 1, 1]]", "[1, 1, 0.001]]") + "}],");
+  const Scene scene = sceneOf(replaced(heldBlock, "[1, 1, 1]]", "[1, 1, 0.001]]") + "}],");
   Scene hurried = scene;
   hurried.steps.dt.number = 1.0;
   std::ostringstream log;

@@ -17,7 +17,7 @@ inline std::string warningsOf(const std::string& middle, const std::filesystem::
   return warningsOf(sceneOf(middle, folder));
 }
 
-inline const std::string block =
+inline const std::string heldBlock =
     R"("solids": [{"name": "b", "mesh": "box", "cells": [2, 2, 2], "box": [[0, 0, 0], [1, 1, 1]],
       "material": {"law": "neo-Hookean", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}, "supports": [{"on": "z-"}])";
 inline const std::string onBlock = R"(}], "couplings": [{"type": "surface", "solid": "b", "kernel": "advised"}],)";

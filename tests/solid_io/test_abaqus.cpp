@@ -13,7 +13,7 @@ const std::string elements =
     "*ELEMENT, TYPE = C3D8R, ELSET=Lower\n7, 1,2,3,4,\n11,12,13,14\n*element,elset=\"the upper\",type=c3d8i\n"
     "9, 11,12,13,14, 21,22,23,24\n";
 
-std::string refusal(const std::string& text) {
+std::string abaqusRefusal(const std::string& text) {
   return messageOf([&] { abaqusFromText(text, "test.inp"); });
 }
 
@@ -70,7 +70,7 @@ TEST(Abaqus, EveryFaceHasItsName) {
       std::sort(expected.begin(), expected.end());
       EXPECT_EQ(fem::nodeSet(file.mesh, "s"), expected) << fem::name(shape) << " S" << f + 1;
     }
-    EXPECT_NE(refusal(text.str() + "*SURFACE, NAME=s\n1, S" + std::to_string(faces.size() + 1) + "\n"), "");
+    EXPECT_NE(abaqusRefusal(text.str() + "*SURFACE, NAME=s\n1, S" + std::to_string(faces.size() + 1) + "\n"), "");
   }
 }
 
@@ -112,7 +112,7 @@ TEST(Abaqus, PlaneStrainIsReadWhereThereAreNoVolumes) {
 
 TEST(Abaqus, OtherElementsOfAPlaneAreRefusedByName) {
   const auto with = [](const std::string& type, const std::string& list) {
-    return refusal(planeNodes + "*ELEMENT, TYPE=" + type + "\n1, " + list + "\n");
+    return abaqusRefusal(planeNodes + "*ELEMENT, TYPE=" + type + "\n1, " + list + "\n");
   };
   EXPECT_NE(with("CPS4", "1,2,3,4").find("element 1 is of plane stress"), std::string::npos) << with("CPS4", "1,2,3,4");
   EXPECT_NE(with("CPE3", "1,2,3").find("a triangle"), std::string::npos);
@@ -120,7 +120,7 @@ TEST(Abaqus, OtherElementsOfAPlaneAreRefusedByName) {
   EXPECT_NE(with("CAX4", "1,2,3,4").find("not known"), std::string::npos);
   EXPECT_NE(with("CPE4", "1,4,3,2").find("order of their nodes is reversed"), std::string::npos)
       << with("CPE4", "1,4,3,2");
-  EXPECT_NE(refusal(planeNodes + "*ELEMENT, TYPE=CPE4\n1, 1,2,3,4\n*SURFACE, NAME=a\n1, S5\n").find("S1 to S4"),
+  EXPECT_NE(abaqusRefusal(planeNodes + "*ELEMENT, TYPE=CPE4\n1, 1,2,3,4\n*SURFACE, NAME=a\n1, S5\n").find("S1 to S4"),
             std::string::npos);
 }
 
@@ -130,14 +130,15 @@ TEST(Abaqus, OnePartThatIsNotMovedIsFlat) {
   const SolidFile file =
       abaqusFromText(part + "*END INSTANCE\n*NSET, NSET=top, INSTANCE=p-1\n21, 22\n*END ASSEMBLY\n", "test.inp");
   EXPECT_EQ(fem::nodeSet(file.mesh, "top").size(), 2u);
-  EXPECT_NE(refusal(part + "1., 0., 0.\n*END INSTANCE\n").find("the instance is moved"), std::string::npos);
-  EXPECT_NE(refusal(part + "*END INSTANCE\n*INSTANCE, NAME=p-2, PART=p\n").find("second *instance"), std::string::npos);
-  EXPECT_NE(refusal(part + "*PART, NAME=q\n").find("second *part"), std::string::npos);
+  EXPECT_NE(abaqusRefusal(part + "1., 0., 0.\n*END INSTANCE\n").find("the instance is moved"), std::string::npos);
+  EXPECT_NE(abaqusRefusal(part + "*END INSTANCE\n*INSTANCE, NAME=p-2, PART=p\n").find("second *instance"),
+            std::string::npos);
+  EXPECT_NE(abaqusRefusal(part + "*PART, NAME=q\n").find("second *part"), std::string::npos);
 }
 
 TEST(Abaqus, BrokenFilesAreRefusedWithTheirLine) {
   const std::string good = nodes + elements;
-  ASSERT_EQ(refusal(good), "");
+  ASSERT_EQ(abaqusRefusal(good), "");
   const std::pair<std::string, std::string> broken[] = {
       {"", "no volume elements"},
       {nodes, "no volume elements"},
@@ -180,14 +181,14 @@ TEST(Abaqus, BrokenFilesAreRefusedWithTheirLine) {
       {good + "*SURFACE, NAME=a\nnone, S1\n", "there is no set 'none'"},
       {good + "*SURFACE, NAME=a, TYPE=CYLINDER\n", "'cylinder'"}};
   for (const auto& [file, wanted] : broken)
-    EXPECT_NE(refusal(file).find(wanted), std::string::npos) << wanted << " not in: " << refusal(file);
+    EXPECT_NE(abaqusRefusal(file).find(wanted), std::string::npos) << wanted << " not in: " << abaqusRefusal(file);
 }
 
 TEST(Abaqus, ManyRangesOfManyLabelsTakeNoMemory) {
   std::string text = nodes + elements + "*NSET, NSET=big, GENERATE\n";
   for (int line = 0; line < 1000; ++line) text += "1, 2000000000, 1\n";
   for (int line = 0; line < 60; ++line) text += "*NSET, NSET=big\nbig, big\n";
-  EXPECT_NE(refusal(text).find("GENERATE names 2000000000 nodes"), std::string::npos) << refusal(text);
+  EXPECT_NE(abaqusRefusal(text).find("GENERATE names 2000000000 nodes"), std::string::npos) << abaqusRefusal(text);
   text = nodes + elements + "*NSET, NSET=a, GENERATE\n";
   for (int line = 0; line < 1000; ++line) text += "11, 14, 1\n";
   EXPECT_EQ(fem::nodeSet(abaqusFromText(text, "test.inp").mesh, "a"), (std::vector<int>{4, 5, 6, 7}));
@@ -199,7 +200,7 @@ TEST(Abaqus, UpToTenBadElementsAreNamed) {
   writeAbaqus(mesh, text);
   std::string flat = text.str();
   for (std::size_t at = 0; (at = flat.find(", 1\n", at)) != std::string::npos;) flat.replace(at, 4, ", 0\n");
-  const std::string message = refusal(flat);
+  const std::string message = abaqusRefusal(flat);
   EXPECT_NE(message.find("elements 1, 2, 3, 4, 5, 6, 7, 8, 9, 10 and 2 more"), std::string::npos) << message;
 }
 
@@ -207,7 +208,7 @@ TEST(Abaqus, ACtrlZAtTheEndIsTheEnd) {
   const std::string good = nodes + elements + "*NSET, NSET=a\n1, 2\n";
   for (const char* end : {"\x1A", "\r\n\x1A", "\x1A\x1A\n"})
     EXPECT_EQ(fem::nodeSet(abaqusFromText(good + end, "test.inp").mesh, "a").size(), 2u);
-  EXPECT_NE(refusal(good + "\x1A\n3\n").find("there is no set '?' yet [test.inp, line 25]"), std::string::npos);
+  EXPECT_NE(abaqusRefusal(good + "\x1A\n3\n").find("there is no set '?' yet [test.inp, line 25]"), std::string::npos);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace dovetail::solid_io {
 namespace {
 
-std::string refusal(const std::string& cards) {
+std::string refusalOfCards(const std::string& cards) {
   return messageOf([&] { abaqusFromText(columnMesh + cards, "deck.inp"); });
 }
 
@@ -41,7 +41,7 @@ TEST(Cards, UnknownAndMalformedOnesAreRefusedWithTheirLine) {
       {"*NSET, NSET=a, ELSET=b\n1, 2\n", "no element set 'b' yet"},
       {"*PARAMETER\nh = 2\n", "*parameter is not known"}};
   for (const auto& [cards, wanted] : bad)
-    EXPECT_NE(refusal(cards).find(wanted), std::string::npos) << wanted << " not in: " << refusal(cards);
+    EXPECT_NE(refusalOfCards(cards).find(wanted), std::string::npos) << wanted << " not in: " << refusalOfCards(cards);
   for (const std::string line : {"NODE", "NODE, NSET=a", "1, 0., 0., 0.", ">*NODE"})
     EXPECT_NE(messageOf([&] {
                 abaqusFromText("\n" + line + "\n" + columnMesh, "deck.inp");
@@ -102,7 +102,7 @@ TEST(Cards, RangesMayRunBackwards) {
       abaqusFromText(columnMesh + "*NSET, NSET=a, GENERATE\n12, 9, -1\n*NSET, NSET=b, GENERATE\n12, 7, -2,\n", "d.inp");
   EXPECT_EQ(fem::nodeSet(file.mesh, "a"), range(8, 11));
   EXPECT_EQ(fem::nodeSet(file.mesh, "b"), (std::vector<int>{7, 9, 11}));
-  EXPECT_NE(refusal("*NSET, NSET=a, GENERATE\n1, 4, -1\n").find("makes no sense"), std::string::npos);
+  EXPECT_NE(refusalOfCards("*NSET, NSET=a, GENERATE\n1, 4, -1\n").find("makes no sense"), std::string::npos);
 }
 
 TEST(Cards, MarksAndLineEndsOfOtherMachinesAreTaken) {

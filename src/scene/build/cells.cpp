@@ -18,8 +18,6 @@ namespace dovetail::scene {
 
 namespace {
 
-constexpr double bytesOfGrain = 1000.0;
-
 rve::Springs springsOf(const CellLinearContact& law, double friction) {
   if (law.modulus.has_value() == law.stiffness.has_value())
     throw InputError(

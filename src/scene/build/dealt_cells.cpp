@@ -14,7 +14,6 @@ namespace {
 constexpr double tolerance = 1e-4;  // of pressures, relative: a load on top is held as well
 constexpr double sameDepth = 1e-9;  // of the height of the solid
 constexpr int passes = 2;           // cells under more pressure are denser, and weigh more
-constexpr double bytesOfGrain = 1000.0;
 
 /// Depths of points below the highest corner, m.
 class Depths {

@@ -6,6 +6,9 @@
 
 namespace dovetail::scene {
 
+/// What a grain of a cell takes in memory, bytes.
+inline constexpr double bytesOfGrain = 1000.0;
+
 struct DealtCells {
   std::vector<rve::Rve> cells;
   hierarchical::Deal deal;  ///< their numbers

@@ -12,8 +12,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json listOf(const Vec3& v) { return Json::array({v.x, v.y, v.z}); }
-Json textOf(const TimeValue& v) { return v.expression.empty() ? Json(v.number) : Json(v.expression); }
-Json listOf(const TimeVector& v) { return Json::array({textOf(v[0]), textOf(v[1]), textOf(v[2])}); }
+Json jsonOf(const TimeValue& v) { return v.expression.empty() ? Json(v.number) : Json(v.expression); }
+Json listOf(const TimeVector& v) { return Json::array({jsonOf(v[0]), jsonOf(v[1]), jsonOf(v[2])}); }
 
 class Writer final : public Fields {
 public:
@@ -38,7 +38,7 @@ public:
   void box(Key key, std::optional<geometry::Box>& value) override {
     if (value) box(key, *value);
   }
-  void function(Key key, TimeValue& value, const Limits&) override { json[key.name] = textOf(value); }
+  void function(Key key, TimeValue& value, const Limits&) override { json[key.name] = jsonOf(value); }
   void functions(Key key, TimeVector& value, const Dimension&) override { json[key.name] = listOf(value); }
   void functions(Key key, std::optional<TimeVector>& value, const Dimension&) override {
     if (value) json[key.name] = listOf(*value);

@@ -13,8 +13,6 @@ namespace dovetail::scene {
 
 namespace {
 
-std::string item(const char* list, std::size_t k) { return std::string(list) + "." + std::to_string(k); }
-
 // ---- probes
 
 std::size_t nearestOf(const std::vector<Vec3>& places, const Vec3& at) {

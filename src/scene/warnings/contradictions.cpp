@@ -23,9 +23,8 @@ void lookAtItems(const std::string& list, const std::vector<Item>& items, Lines&
     const std::string text = textOf([&](Fields& fields) { describe(fields, copy); });
     const auto [first, isNew] = known.emplace(text, k);
     if (!isNew)
-      lines.push_back(list + "." + std::to_string(first->second) + " and " + list + "." + std::to_string(k) +
-                      " are identical" + (list.ends_with("supports") ? "" : ", and both act") +
-                      ": leave one of them out.");
+      lines.push_back(item(list, first->second) + " and " + item(list, k) + " are identical" +
+                      (list.ends_with("supports") ? "" : ", and both act") + ": leave one of them out.");
   }
 }
 
@@ -36,7 +35,7 @@ void lookAtSupports(const std::string& of, const std::vector<Support>& supports,
     const TimeVector& path = one.displacement ? *one.displacement : one.velocity;
     for (std::size_t c = 0; c < 3; ++c)
       if (!held[c] && !(isConstant(path[c]) && path[c].number == 0.0))
-        lines.push_back(of + "." + std::to_string(k) + " moves along " + "xyz"[c] +
+        lines.push_back(item(of, k) + " moves along " + "xyz"[c] +
                         ", which is not among its components, so that this has no effect: add \"" + "xyz"[c] +
                         "\" to \"components\", or leave that part of its motion out.");
   }
@@ -51,8 +50,8 @@ void lookAtLoads(const std::string& of, const std::vector<Load>& loads, Lines& l
   for (std::size_t j = 0; j < loads.size(); ++j)
     for (std::size_t i = 0; i < j; ++i)
       if (loads[i].on == loads[j].on && pressureOf(loads[i]) != 0.0 && pressureOf(loads[i]) == -pressureOf(loads[j]))
-        lines.push_back(of + "." + std::to_string(i) + " and " + of + "." + std::to_string(j) + " on " +
-                        quoted(loads[i].on) + " cancel each other: leave both out, or give one of them another set.");
+        lines.push_back(item(of, i) + " and " + item(of, j) + " on " + quoted(loads[i].on) +
+                        " cancel each other: leave both out, or give one of them another set.");
 }
 
 /// What supports hold feels no load.
@@ -72,7 +71,7 @@ void lookAtHeldFaces(const Built& built, const Scene& scene, std::size_t s, cons
     if (std::ranges::all_of(fem::faceSet(built.meshes[s], set), [&](const fem::Face& face) {
           return std::all_of(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape), isHeld);
         }))
-      lines.push_back(of + "." + std::to_string(k) + " acts on " + quoted(set) +
+      lines.push_back(item(of, k) + " acts on " + quoted(set) +
                       ", all of whose nodes are held, and loads the supports only: give it a free face.");
   }
 }

@@ -13,8 +13,6 @@ namespace dovetail::scene {
 
 namespace {
 
-std::string item(const char* list, std::size_t k) { return std::string(list) + "." + std::to_string(k); }
-
 // ---- walls
 
 double radiusOf(const Built& built, const Scene& scene, std::size_t w) {
@@ -66,8 +64,8 @@ void lookAtSpeeds(const std::string& list, const std::vector<Moved>& all, double
     }
     constexpr double absurd = 1e4;  // m/s; the time of the run is at fault then
     if (fastest > fast && fastest < absurd)
-      lines.push_back(list + "." + std::to_string(k) + " moves at up to " + rounded(fastest) + " m/s: write \"" +
-                      rounded(fastest) + " mm/s\" if that is meant, or move it more slowly.");
+      lines.push_back(item(list, k) + " moves at up to " + rounded(fastest) + " m/s: write \"" + rounded(fastest) +
+                      " mm/s\" if that is meant, or move it more slowly.");
   }
 }
 

@@ -15,6 +15,8 @@ std::string rounded(double value);
 /// "(0, 0, 0.1) m"
 std::string placeText(const Vec3& x);
 std::string percent(double fraction);
+/// "walls.3"
+inline std::string item(const std::string& list, std::size_t k) { return list + "." + std::to_string(k); }
 inline std::string quoted(const std::string& name) { return "\"" + name + "\""; }
 
 /// The first of the lines that differ in numbers and names alone, with the number of the others.
