@@ -81,6 +81,8 @@ PICTURES = (
             settings=("tension=0",), lines=('"let"',)),
     Picture("column-collapse", "Material points flow over those at rest, in the light core of the heap; the base holds the lowest.",
             draw="--solids plastic_strain", lines=('"solids"',)),
+    Picture("snowball", "The ball has flattened on the beads, which it throws up and ahead; its front has yielded most.",
+            frame=0.3, draw="--solids plastic_strain --azimuth 20 --elevation 18", lines=('"solids"', '"couplings"')),
     Picture("pipe-in-cells", "Sand flows round the pipe and rises beside it; every point has its own cell of discs.",
             draw="--solids shear_strain", lines=('"cells"', '"solids"')),
     Picture("bonded-beam", "The bonds in the middle have failed in tension; both halves oscillate.",

@@ -113,11 +113,24 @@ double CoupledRun::Impl::rateOf(const void* model) const {
   return 0.0;
 }
 
+/// One per particle; empty if none is part of a solid.
+std::vector<dem::SolidPart> CoupledRun::Impl::solidParts() const {
+  std::vector<dem::SolidPart> parts;
+  for (const auto* connector : grains.terms.all<Connector>()) {
+    if (!connector->placed().empty()) parts.resize(grains.particles.size());
+    for (const std::int64_t id : connector->placed())
+      if (const int i = dem::find(grains.particles, id); i >= 0)
+        parts[static_cast<std::size_t>(i)] = {true, rateOf(connector->side().model)};
+  }
+  return parts;
+}
+
 StepLimit CoupledRun::Impl::criticalStep() {
   dem::ContactDemand demand = dem::demandOf(grains);
   StepLimit limit = limitNow(demand, true);
-  limit.lower(dem::impactLimit(grains, demand,
-                               {.macroStep = K(), .ownRate = [this](const void* model) { return rateOf(model); }}));
+  limit.lower(dem::impactLimit(
+      grains, demand,
+      {.macroStep = K(), .ownRate = [this](const void* model) { return rateOf(model); }, .parts = solidParts()}));
   return limit;
 }
 

@@ -226,7 +226,7 @@ double CoupledRun::Impl::placeParticles(bool timeless) {
   for (const auto& term : grains.terms)
     if (auto* const connector = dynamic_cast<Connector*>(term.get()))
       for (const auto& solid : solids)
-        if (&solid->side == &connector->side() && connector->placesParticles())
+        if (&solid->side == &connector->side() && !connector->placed().empty())
           moved = std::max(moved, connector->placeParticles(grains, solid->seenVelocities(timeless)));
   return moved;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "dovetail/coupling/run.hpp"
+#include "dovetail/dem/model/impact.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
 #include "outside.hpp"
 #include "solid_stepper.hpp"
@@ -73,6 +74,7 @@ struct CoupledRun::Impl {
   double rateOf(const void* model) const;
   /// Of particles that stand for parts of the solid, to what is asked of them.
   void addOwnForces(const SolidSide& side, double rate, dem::ContactDemand& demand) const;
+  std::vector<dem::SolidPart> solidParts() const;
   StepLimit criticalStep();
   void lookAtLimit(bool failed = false);
   bool joined() const;

@@ -7,6 +7,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/dem/model/impact.hpp"
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/fem/laws/tensor.hpp"
 
@@ -112,7 +113,7 @@ void PointContact::leaving(dem::Model& m, std::vector<char>& leaves) {
   for (std::size_t p = 0; p < number.size(); ++p)
     if (leaves[at(number[p])] != 0)
       throw NumericalError("it has left the domain of the particles",
-                           "point " + std::to_string(p) + " of \"" + points_->name() + "\"",
+                           "point " + std::to_string(p) + " of \"" + side().name + "\"",
                            "widen the domain, or put a wall or a border of the grid in its way");
 }
 
@@ -148,21 +149,8 @@ void PointContact::addForces(dem::Model& m, const dem::Step&) {
 
 /// Points in contact feel the forces of the solid too. Implicit solids move once a macro step.
 void PointContact::addOwnForces(dem::ContactDemand& demand, double rate) const {
-  const double K = demand.macroStep;
-  if (rate > 0.0 && K > 1.0) demand.atMacroSteps.resize(demand.stiffness.size(), 0.0);
-  for (std::size_t p = 0; p < number_.size(); ++p) {
-    const std::size_t i = at(number_[p]);
-    if (i >= demand.stiffness.size() || !(demand.stiffness[i] > 0.0)) continue;
-    const double own = rate * points_->masses()[p];
-    if (rate == 0.0) {
-      demand.stiffness[i] *= K * K;
-      demand.damping[i] *= K;
-    } else if (K > 1.0) {
-      demand.atMacroSteps[i] += own;
-    } else {
-      demand.stiffness[i] += own;
-    }
-  }
+  for (std::size_t p = 0; p < number_.size(); ++p)
+    dem::addOwnForces(demand, at(number_[p]), points_->masses()[p], rate);
 }
 
 void PointContact::addEnergies(const dem::Model& m, dem::Energies& e) const {

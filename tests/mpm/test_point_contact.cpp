@@ -269,6 +269,22 @@ TEST(PointContact, IsTheOnlyConnectorOfPoints) {
   EXPECT_THROW(lagging->run.start(1e-5, {.lag = coupling::Lag::load}), InputError);
 }
 
+/// Implicit solids move once a macro step, explicit ones have forces of their own: both count before anything touches.
+TEST(PointContact, KnowsTheStepBeforeTheImpact) {
+  for (const Stepping stepping : {Stepping::explicitSteps, Stepping::implicitSteps})
+    for (const int K : {1, 4})
+      for (const bool faces : {false, true}) {
+        const auto made = splash({.stepping = stepping, .K = K, .fraction = 0.5, .friction = 0.0, .faces = faces});
+        const double before = made->run.criticalStep().dt;
+        double least = before;
+        for (int k = 0; k < 20; ++k) {
+          made->run.advance(std::llround(0.001 / made->run.macroStep()));
+          least = std::min(least, made->run.criticalStep().dt);
+        }
+        EXPECT_LE(before, 1.6 * least) << K << faces;
+      }
+}
+
 TEST(PointContact, TellsWhoLeavesTheDomain) {
   const auto made = splash({});
   made->run.grains.domain = dem::Domain{{{-1.0, -0.3, -1.0}, {1.0, 1.0, 1.0}}, dem::EscapePolicy::remove};

@@ -132,6 +132,12 @@ TEST(SceneCompany, PartsThatDoNothing) {
       "open": ["x-", "x+", "y-", "y+", "z-", "z+"]}],)"),
               {"walls.0 is a box with all six sides open"});
   expectParts(warningsOf(heldBlock + onBlock), {"The scene has no grains, so that the coupling of \"b\" does nothing"});
+  EXPECT_EQ(warningsOf(heldBlock + R"(}, {"name": "snow", "mesh": "points",
+                "points": {"from": "box", "box": [[0.4, 0.4, 1.1], [0.6, 0.6, 1.3]]}, "grid": {"spacing": 0.1},
+                "velocity": [0, 0, -1],
+                "material": {"law": "neo-Hookean", "youngs_modulus": 1e5, "poisson_ratio": 0.3, "density": 1000}}],
+                "couplings": [{"type": "surface", "solid": "b"}, {"type": "points", "solid": "snow"}],)"),
+            "");
   const std::string above = spheres(R"({"at": [0.5, 0.5, 1.1], "radius": 0.1, "velocity": [0, 0, -1]})");
   const auto on = [&](const std::string& faces) {
     return warningsOf(heldBlock + replaced(onBlock, R"("surface",)", R"("surface", "on": ")" + faces + "\",") + above);

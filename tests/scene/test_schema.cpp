@@ -53,8 +53,9 @@ Json starter(const std::string& name) {
 
 TEST(SceneSchema, StarterScenesFit) {
   const Json schema = Json::parse(schemaText());
-  for (const char* name : {"bonded-beam", "cantilever", "chute", "column", "digging", "drum", "hopper", "shaft",
-                           "static-cantilever", "stirrer", "tray", "two-materials", "wave"})
+  for (const char* name :
+       {"bonded-beam", "cantilever", "chute", "column", "column-collapse", "digging", "drum", "hopper", "shaft",
+        "snowball", "static-cantilever", "stirrer", "tray", "two-materials", "wave"})
     EXPECT_TRUE(fits(schema, starter(name))) << name;
   for (const char* name : {"footing", "pile", "plate"}) {
     Json scene = starter(name);

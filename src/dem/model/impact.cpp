@@ -20,6 +20,7 @@ constexpr double immovable = 1e200;  // kg
 struct Hitter {
   double inverseMass = -1.0, radius = 0.0;  // 1/kg; < 0: nobody
   int number = -1;                          // −1: a newcomer
+  SolidPart part{};
 
   std::string name(const Particles& p) const {
     return number < 0 ? "inserted grains" : "particle " + std::to_string(p.id[static_cast<std::size_t>(number)]);
@@ -93,7 +94,7 @@ void addNewcomers(const InsertionOptions& s, Crowd& crowd) {
   offerTwo(1.0 / (s.density.value * 4.0 / 3.0 * std::numbers::pi * r * r * r), r);
 }
 
-Crowd crowdOf(const Model& m, const ContactDemand& demand) {
+Crowd crowdOf(const Model& m, const ContactDemand& demand, const ImpactOptions& settings) {
   Crowd crowd;
   const Particles& p = m.particles;
   const std::vector<double> inverse = mobilities(m);
@@ -101,8 +102,10 @@ Crowd crowdOf(const Model& m, const ContactDemand& demand) {
     const bool isFree = i >= demand.stiffness.size() || demand.stiffness[i] == 0.0;
     crowd.add({p.x[i], p.x[i]}, p.v[i], isFree);
     const Kind kind{p.material.empty() ? 0 : int{p.material[i]}, p.isOfSolid(i)};
-    offer(crowd.all, kind, {inverse[i], p.radius[i], static_cast<int>(i)});
-    if (isFree) offer(crowd.free, kind, {inverse[i], p.radius[i], static_cast<int>(i)});
+    const Hitter hitter{inverse[i], p.radius[i], static_cast<int>(i),
+                        settings.parts.empty() ? SolidPart{} : settings.parts[i]};
+    offer(crowd.all, kind, hitter);
+    if (isFree) offer(crowd.free, kind, hitter);
   }
   for (const InsertionTerm* insertion : m.terms.all<InsertionTerm>())
     addNewcomers(insertion->insertion.settings, crowd);
@@ -133,6 +136,14 @@ public:
     return demand;
   }
   double limitOf(const ContactDemand& demand) const { return criticalStep(demand, pair_).dt; }
+  /// With what solids ask of those that are parts of them.
+  double limitAt(double overlap, const Hitter& a, const Hitter& b, int macroStep) const {
+    ContactDemand demand = demandAt(overlap);
+    demand.macroStep = macroStep;
+    if (a.part.ofSolid) addOwnForces(demand, 0, pair_.mass[0], a.part.ownRate);
+    if (b.part.ofSolid) addOwnForces(demand, 1, pair_.mass[1], b.part.ownRate);
+    return limitOf(demand);
+  }
 
   /// The overlap at which springs have taken up the energy of a speed, or a force's work, m: by at most both radii.
   double depth(double speed, double effectiveMass) const {
@@ -197,7 +208,7 @@ double dropTo(const ImpactPartner& partner, const geometry::Box& places, const V
   return std::max(drop, heightOf(places, gravity));
 }
 
-void meetEachOther(const Model& m, const Crowd& crowd, ImpactLimit& limit) {
+void meetEachOther(const Model& m, const Crowd& crowd, int macroStep, ImpactLimit& limit) {
   const double g = norm(m.gravity);
   const double speed =
       fallen(norm(crowd.velocities.upper - crowd.velocities.lower), heightOf(crowd.places, m.gravity), g);
@@ -210,7 +221,7 @@ void meetEachOther(const Model& m, const Crowd& crowd, ImpactLimit& limit) {
       if (second.inverseMass < 0.0 || first.inverseMass + second.inverseMass == 0.0) continue;
       const Meeting meeting(*m.laws, first, second, {kind.material, other.material}, m.particles.rotates());
       const double depth = meeting.depth(speed, meeting.effectiveMass());
-      note(limit, meeting.limitOf(meeting.demandAt(depth)), depth / meeting.leastRadius(),
+      note(limit, meeting.limitAt(depth, first, second, macroStep), depth / meeting.leastRadius(),
            "an impact of " + first.name(m.particles) + " with " + second.name(m.particles));
     }
 }
@@ -230,13 +241,15 @@ void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partne
     const double depth = meeting.depth(speed, meeting.effectiveMass());
     ContactDemand demand = meeting.demandAt(depth);
     if (partner.inverseMass > 0.0 && !demand.links.empty()) {
-      demand.macroStep = settings.macroStep;
       demand.links.front().shifting = demand.stiffness.front();
       demand.links.front().shiftingDamping = demand.damping.front();
       demand.standOn(0, partner.of, partner.inverseMass);
       demand.sides.front().inMacroSteps = partner.inMacroSteps;
       if (settings.ownRate) demand.sides.front().ownRate = settings.ownRate(partner.of);
     }
+    demand.macroStep = settings.macroStep;
+    if (hitter.part.ofSolid && hitter.inverseMass > 0.0)
+      addOwnForces(demand, 0, 1.0 / hitter.inverseMass, hitter.part.ownRate);
     note(limit, meeting.limitOf(demand), depth / hitter.radius,
          "an impact of " + hitter.name(m.particles) + " with " + partner.name);
   }
@@ -244,12 +257,26 @@ void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partne
 
 }  // namespace
 
+void addOwnForces(ContactDemand& demand, std::size_t particle, double mass, double ownRate) {
+  if (particle >= demand.stiffness.size() || !(demand.stiffness[particle] > 0.0)) return;
+  const double K = demand.macroStep, own = ownRate * mass;
+  if (ownRate == 0.0) {
+    demand.stiffness[particle] *= K * K;
+    demand.damping[particle] *= K;
+  } else if (K > 1.0) {
+    demand.atMacroSteps.resize(demand.stiffness.size(), 0.0);
+    demand.atMacroSteps[particle] += own;
+  } else {
+    demand.stiffness[particle] += own;
+  }
+}
+
 ImpactLimit impactLimit(const Model& m, const ContactDemand& demand, const ImpactOptions& settings) {
   ImpactLimit limit;
   if (!m.laws) return limit;
-  const Crowd crowd = crowdOf(m, demand);
+  const Crowd crowd = crowdOf(m, demand, settings);
   if (crowd.free.empty()) return limit;
-  if (!std::isinf(m.laws->reach())) meetEachOther(m, crowd, limit);
+  if (!std::isinf(m.laws->reach())) meetEachOther(m, crowd, settings.macroStep, limit);
   std::vector<ImpactPartner> partners;
   for (const auto& term : m.terms) term->addPartners(m, partners);
   for (const ImpactPartner& partner : partners) meetPartner(m, crowd, partner, settings, limit);

@@ -151,13 +151,15 @@ void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
 // ---- solids
 
 void lookAtCouplings(const Built& built, const Scene& scene, Lines& lines) {
-  const bool anyGrains = countOfGrains(built.run->grains.particles) > 0 || !scene.insertions.empty();
+  const dem::Particles& particles = built.run->grains.particles;
+  const bool anyGrains = countOfGrains(particles) > 0 || !scene.insertions.empty();
   for (const Coupling& coupling : scene.couplings) {
     if (std::holds_alternative<PointSpheres>(coupling.kind)) continue;
-    if (!anyGrains)
+    const bool onSurface = std::holds_alternative<SurfaceContact>(coupling.kind);  // which points of others meet too
+    if (!anyGrains && !(onSurface && particles.size() > 0))
       lines.push_back("The scene has no grains, so that the coupling of " + quoted(coupling.solid) +
                       " does nothing: give it particles or insertions, or leave the coupling out.");
-    if (!std::holds_alternative<SurfaceContact>(coupling.kind)) continue;
+    if (!onSurface) continue;
     for (std::size_t s = 0; s < scene.solids.size(); ++s)
       if (scene.solids[s].name == coupling.solid && isOutOfReach(built, scene, s))
         lines.push_back(

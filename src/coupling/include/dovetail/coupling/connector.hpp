@@ -49,8 +49,8 @@ public:
   /// Whether it acts on nodes that the solid lays out anew between macro steps (fem::Term::ownsNodes): others keep the
   /// numbers of nodes.
   virtual bool followsNodes() const { return false; }
-  /// Whether particles stand for a part of the solid.
-  virtual bool placesParticles() const { return false; }
+  /// Ids of the particles that stand for parts of the solid.
+  virtual std::span<const std::int64_t> placed() const { return {}; }
   /// Puts them where the nodes have brought them.
   /// @param v  of the nodes, as particles see them, m/s @return how far one has moved at most, m
   virtual double placeParticles(dem::Model&, std::span<const Vec3> /*v*/) { return 0.0; }

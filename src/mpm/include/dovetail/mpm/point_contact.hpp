@@ -33,7 +33,7 @@ public:
   std::unique_ptr<dem::Term> clone() const override { return std::make_unique<PointContact>(*this); }
   Order order() const override { return Order::bodies; }
   bool followsNodes() const override { return true; }
-  bool placesParticles() const override { return true; }
+  std::span<const std::int64_t> placed() const override { return ids_; }
 
   void check(const dem::Model& m) const override;
   void own(dem::Particles& particles) const override;

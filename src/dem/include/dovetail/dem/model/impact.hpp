@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "dovetail/dem/model/model.hpp"
 #include "dovetail/geometry/box.hpp"
@@ -29,10 +30,21 @@ struct ImpactLimit : StepLimit {
   std::string deepest;   ///< its owner
 };
 
+/// Of a particle that stands for a part of a solid.
+struct SolidPart {
+  bool ofSolid = false;
+  double ownRate = 0.0;  ///< ω² of the solid's own forces, 1/s²; 0: implicit steps, it moves once a macro step
+};
+
 struct ImpactOptions {
   int macroStep = 1;                             ///< K
   std::function<double(const void*)> ownRate{};  ///< ContactDemand::Side::ownRate of a partner; empty: 0
+  std::vector<SolidPart> parts{};                ///< one per particle; empty: none is part of a solid
 };
+
+/// Adds to what contacts ask of a particle what the solid does whose part it is. Nothing if no contact asks.
+/// @param mass of the particle, kg
+void addOwnForces(ContactDemand& demand, std::size_t particle, double mass, double ownRate);
 
 /// Of head-on impacts of particles without contacts, inserted ones included: of those of each material with the largest
 /// inverse mass, with each other, with all others, and with the partners that terms name, at the largest relative speed
