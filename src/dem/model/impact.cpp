@@ -31,7 +31,10 @@ struct Hitter {
 struct Kind {
   int material = 0;
   bool ofSolid = false;
-  auto operator<=>(const Kind&) const = default;
+  bool operator==(const Kind&) const = default;
+  bool operator<(const Kind& other) const {
+    return std::pair(material, ofSolid) < std::pair(other.material, other.ofSolid);
+  }
 };
 using Hitters = std::map<Kind, std::array<Hitter, 2>>;
 
