@@ -26,17 +26,19 @@ function(dovetail_add_module name)
   if(MODULE_LIGHT)
     set(light LIGHT)
   endif()
-  dovetail_set_options(${target} ${light} HEADERS ${MODULE_HEADERS})
+  set(together "")
   if(MODULE_TOGETHER)
-    dovetail_compile_together(${target})
+    set(together TOGETHER)
   endif()
+  dovetail_set_options(${target} ${light} ${together} HEADERS ${MODULE_HEADERS})
   set_property(GLOBAL APPEND PROPERTY DOVETAIL_MODULES ${name})
   set_property(GLOBAL PROPERTY DOVETAIL_DEPENDS_${name} "${MODULE_DEPENDS}")
 endfunction()
 
-# dovetail_add_test(<name> [EIGEN] [TOGETHER] SOURCES file… DEPENDS module…): one GoogleTest program per folder of tests. They share
-# a precompiled header, those that use Eigen another, and are optimised lightly, which halves the time to build them.
-# ctest runs several of them at once, so each runs on one thread where the test does not ask for more.
+# dovetail_add_test(<name> [EIGEN] [TOGETHER] SOURCES file… DEPENDS module…): one GoogleTest program per folder of tests.
+# They share a precompiled header, those that use Eigen another, and are optimised lightly, which halves the time to
+# build them. TOGETHER: see dovetail_compile_together. ctest runs several of them at once, so each runs on one thread
+# where the test does not ask for more.
 function(dovetail_add_test name)
   cmake_parse_arguments(TEST "EIGEN;TOGETHER" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(test_${name} ${TEST_SOURCES})
@@ -59,9 +61,9 @@ function(dovetail_add_test name)
                        PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=1")
 endfunction()
 
-# dovetail_set_options(<target> [LIGHT] [TOGETHER] [HEADERS header…]): flags and a precompiled header for libraries and programs. It
-# is shared by targets of the same flags, and saves a fifth of their time to build. Sources with flags of their own skip
-# it; DOVETAIL_PRECOMPILED_HEADERS=OFF shows which #include a file lacks.
+# dovetail_set_options(<target> [LIGHT] [TOGETHER] [HEADERS header…]): flags and a precompiled header for libraries and
+# programs. It is shared by targets of the same flags, and saves a fifth of their time to build. Sources with flags of
+# their own skip it; DOVETAIL_PRECOMPILED_HEADERS=OFF shows which #include a file lacks.
 function(dovetail_set_options target)
   cmake_parse_arguments(SET "LIGHT;TOGETHER" "" "HEADERS" ${ARGN})
   set(light "")

@@ -42,8 +42,9 @@ struct ImpactOptions {
   std::vector<SolidPart> parts{};                ///< one per particle; empty: none is part of a solid
 };
 
-/// Adds to what contacts ask of a particle what the solid does whose part it is. Nothing if no contact asks.
-/// @param mass of the particle, kg
+/// Adds to what contacts ask of a particle what the solid does whose part it is; nothing if no contact asks. Uses
+/// demand.macroStep.
+/// @param particle number @param mass of the particle, kg @param ownRate SolidPart::ownRate, 1/s²
 void addOwnForces(ContactDemand& demand, std::size_t particle, double mass, double ownRate);
 
 /// Of head-on impacts of particles without contacts, inserted ones included: of those of each material with the largest
