@@ -85,6 +85,8 @@ PICTURES = (
             frame=0.3, draw="--solids plastic_strain --azimuth 20 --elevation 18", lines=('"solids"', '"couplings"')),
     Picture("pipe-in-cells", "Sand flows round the pipe and rises beside it; every point has its own cell of discs.",
             draw="--solids shear_strain", lines=('"cells"', '"solids"')),
+    Picture("footing-in-cells", "A wedge goes down with the footing, a fan shears, and the ground beside it is lifted.",
+            draw="--solids shear_strain", lines=('"sets"', '"planes"', '"loads"')),
     Picture("bonded-beam", "The bonds in the middle have failed in tension; both halves oscillate.",
             contents="bonds", frame=0.8, draw="--lines bonds", lines=('"bonds"',)),
     Picture("cantilever", "Two balls slide to the free end of the beam; bending stress is largest at the clamp.",

@@ -71,6 +71,9 @@ fem::SolidMesh facesOnly(const fem::SolidMesh& mesh) {
         }
         node = own;
       }
+  for (const auto& [name, nodes] : mesh.nodeSets)
+    for (const int node : nodes)
+      if (const int own = number[static_cast<std::size_t>(node)]; own >= 0) faces.nodeSets[name].push_back(own);
   return faces;
 }
 

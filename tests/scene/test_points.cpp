@@ -81,7 +81,6 @@ TEST(ScenePoints, RefuseWhatNeedsElements) {
                                      R"("length": 0.3)",
                                      plane, law + R"(, "planes": [{"point": [0, 0, 0], "normal": [0, 1, 0]}])"))),
               {"solids.0", "faces of material points are those of a box"});
-  expectParts(refused(R"(, "sets": [{"name": "a", "place": "side", "side": "y-"}])"), {"sets"});
   expectParts(refused(R"(, "linear_solver": "direct")"), {"linear_solver"});
   expectParts(refusalOf(sceneOf(body(box, plane + R"(, "borders": [{"side": "y-", "at": 0.05}])"))),
               {"solids.0.grid.borders.0", "16 of 128 points", "border y-"});
@@ -238,49 +237,6 @@ TEST(ScenePoints, MeetGrainsWithTheirFaces) {
   };
   const std::vector<char> halfway = run(1, 2000, {});
   EXPECT_EQ(run(1, 3000, {}), run(3, 1000, halfway));
-}
-
-/// A column between frictionless borders under a pressure on its top, in load steps.
-TEST(ScenePoints, BearPressureOnTheirFaces) {
-  const Scene scene =
-      sceneFromText("{" +
-                        body(box, plane + R"(, "borders": [{"side": "y-", "at": 0}, {"side": "x-", "at": 0},
-                 {"side": "x+", "at": 0.2}])",
-                             law + R"(, "loads": [{"on": "y+", "type": "pressure", "pressure": 100}])") +
-                        R"("steps": {"safety": 0.8}, "stages": [{"do": "statics", "load_steps": 2, "time": 1}]})",
-                    "s.json", "/");
-  Built built = started(scene);
-  for (int step = 0; step < 2; ++step) built.run->loadStep(step, 2, 0.0);
-  const double confined = 1e5 * 0.7 / (1.3 * 0.4);
-  const std::vector<Vec3> u = displacementsOf(pointsIn(built), built.run->solid(0).nodes());
-  double mean = 0.0;
-  for (std::size_t p = 0; p < u.size(); ++p) {
-    mean += u[p].y / static_cast<double>(u.size());
-    EXPECT_NEAR(u[p].y, -100.0 / confined * built.meshes[0].X[p].y, 0.02 * 100.0 / confined * 0.4);
-  }
-  EXPECT_NEAR(mean, -100.0 / confined * 0.2, 0.005 * 100.0 / confined * 0.2);
-}
-
-/// Falls on a plane in place of a border, and leaves it.
-TEST(ScenePoints, BounceOnPlanes) {
-  const Scene scene = sceneFromText(
-      "{" +
-          body(R"("from": "box", "box": [[0, 0.02, 0], [0.2, 0.42, 0.05]])", plane + R"(, "transfer": "apic")",
-               R"("velocity": [0.3, -1, 0], )" + law +
-                   R"(, "planes": [{"on": "y-", "point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.3}])") +
-          R"("steps": {"dt": 1e-4}, "stages": [{"do": "run", "time": 0.2}]})",
-      "s.json", "/");
-  Built built = started(scene);
-  const double joules = built.run->kineticEnergy();
-  built.run->advance(2000);
-  EXPECT_GT(pointsIn(built).renewals(), 2);
-  EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-2 * joules);
-  const std::vector<Vec3> v = velocitiesOf(pointsIn(built), built.run->solid(0).nodes());
-  Vec3 mean;
-  for (const Vec3& one : v) mean += 1.0 / static_cast<double>(v.size()) * one;
-  EXPECT_GT(mean.y, 0.2);
-  EXPECT_LT(mean.x, 0.25);  // friction
-  for (const Vec3& x : pointsIn(built).places(built.run->solid(0).nodes())) EXPECT_GT(x.y, 0.0);
 }
 
 TEST(ScenePoints, RefuseCouplingsOfMeshes) {

@@ -17,6 +17,7 @@ struct Beside {
   const char* steps = R"("dt": 1e-4)";
   const char* solid = "";  ///< keys of the solid
   bool relaxes = false;
+  const char* on = "y+";  ///< of the faces
 };
 void PrintTo(const Beside& one, std::ostream* out) { *out << one.name; }
 
@@ -41,8 +42,9 @@ Scene bedUnderDiscs(const Beside& c) {
           body(R"("from": "box", "box": [[0, 0, 0], [0.4, 0.2, 0.1]])",
                plane + R"(, "transfer": "apic", "borders": [{"side": "y-", "at": 0, "kind": "held"}])",
                c.solid + material) +
-          R"("couplings": [{"type": ")" + c.coupling + R"(", "solid": "snow")" + (faces ? R"(, "on": "y+")" : "") +
-          R"(}], "steps": {)" + c.steps + R"(}, "stages": [{"do": ")" + (c.relaxes ? "relax" : "run") +
+          R"("couplings": [{"type": ")" + c.coupling + R"(", "solid": "snow")" +
+          (faces ? std::string(R"(, "on": ")") + c.on + '"' : "") + R"(}], "steps": {)" + c.steps +
+          R"(}, "stages": [{"do": ")" + (c.relaxes ? "relax" : "run") +
           (c.relaxes ? R"("}]})" : R"(", "time": 0.03}]})"),
       "s.json", "/");
 }
@@ -63,16 +65,26 @@ TEST_P(PointsBeside, Balance) {
   EXPECT_LT(run.kineticEnergy(), 0.999 * moved);
   const dem::Particles& particles = run.grains.particles;
   for (std::size_t i = 0; i < particles.size(); ++i)
-    if (!particles.isOfSolid(i)) EXPECT_GT(particles.x[i].y, 0.2);
+    if (!particles.isOfSolid(i)) {
+      EXPECT_GT(particles.x[i].y, 0.2);
+    }
 }
 
 constexpr const char* inFours = R"("dt": 2.5e-5, "per_macro_step": 4)";
+/// A plane comes down on one part of the faces, discs on the other.
+constexpr const char* inParts =
+    R"("sets": [{"name": "pressed", "place": "box", "box": [[-1, 0.19, -1], [0.05, 0.21, 1]]},
+                                            {"name": "hit", "place": "box", "box": [[0.05, 0.19, -1], [1, 0.21, 1]]}],
+      "planes": [{"on": "pressed", "point": [0, 0.2, 0], "normal": [0, -1, 0], "velocity": [0, -0.05, 0],
+                  "friction": 0.5}], )";
 constexpr const char* periods = R"("periodic": {"box": [[-0.3, -0.1, -0.05], [0.7, 1, 0.05]], "axes": ["x"]},)";
 INSTANTIATE_TEST_SUITE_P(
     Scenes, PointsBeside,
     testing::Values(Beside{"FacesInFours", false, "surface", "", inFours},
                     Beside{"FacesImplicitInFours", false, "surface", "", inFours, R"("stepping": "implicit", )"},
                     Beside{"FacesInPeriods", false, "surface", periods},
+                    Beside{"FacesInParts", false, "surface", "", R"("dt": 1e-4)", inParts, false, "hit"},
+                    Beside{"CellsWithFacesInParts", true, "surface", "", R"("dt": 1e-4)", inParts, false, "hit"},
                     Beside{"FacesRelax", false, "surface", "", R"("dt": 1e-4)", "", true}, Beside{"Cells", true},
                     Beside{"CellsWithFaces", true, "surface"}, Beside{"CellsInFours", true, "points", "", inFours},
                     Beside{"CellsInPeriods", true, "points", periods},

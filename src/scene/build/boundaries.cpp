@@ -44,6 +44,11 @@ std::vector<int> elementsOn(const fem::SolidMesh& mesh, const std::vector<int>& 
   return elements;
 }
 
+/// Of the boundary; faces of material points are a mesh of these alone.
+std::vector<fem::Face> outsideOf(const fem::SolidMesh& mesh) {
+  return mesh.groups.empty() ? fem::faceSet(mesh, "skin") : fem::boundaryFaces(mesh);
+}
+
 /// Of a flat face with these corners; outwards.
 Vec3 normalOf(const fem::SolidMesh& mesh, const fem::Face& face) {
   const auto corner = [&](std::size_t k) { return mesh.X[static_cast<std::size_t>(face.node[k])]; };
@@ -89,18 +94,18 @@ void add(fem::SolidMesh& mesh, const std::string& name, const Kind& kind) {
   mesh.nodeSets[name] = fem::nodesWhere(mesh, place);
   if (std::vector<int> elements = elementsOn(mesh, mesh.nodeSets[name]); !elements.empty())
     mesh.elementSets[name] = std::move(elements);
-  const std::vector<fem::Face> boundary = fem::boundaryFaces(mesh);
-  if (std::any_of(boundary.begin(), boundary.end(), [&](const fem::Face& face) {
-        return std::all_of(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape),
-                           [&](int n) { return place(mesh.X[static_cast<std::size_t>(n)]); });
-      }))
-    mesh.faceSets[name] = fem::facesWhere(mesh, place);
+  std::vector<fem::Face> faces = outsideOf(mesh);
+  std::erase_if(faces, [&](const fem::Face& face) {
+    return !std::all_of(face.node.begin(), face.node.begin() + fem::nodesOf(face.shape),
+                        [&](int n) { return place(mesh.X[static_cast<std::size_t>(n)]); });
+  });
+  if (!faces.empty()) mesh.faceSets[name] = std::move(faces);
 }
 
 void add(fem::SolidMesh& mesh, const std::string& name, const FacesTowards& kind) {
   if (norm(kind.direction) == 0.0)
     throw InputError("the direction has no length", "", "give it one, such as [0, 0, 1]");
-  std::vector<fem::Face> faces = fem::boundaryFaces(mesh);
+  std::vector<fem::Face> faces = outsideOf(mesh);
   const Vec3 direction = normalized(kind.direction);
   std::erase_if(faces, [&](const fem::Face& face) {
     const Vec3 normal = normalOf(mesh, face);

@@ -159,7 +159,6 @@ void requireNoElements(const Solid& solid, const Scene& scene) {
         Given{solid.massFraction.has_value() && *solid.massFraction > 0.0, "a consistent mass", "leave it out"},
         Given{solid.state.has_value(), "a state", "resume the run in place of starting from it"},
         Given{!solid.regions.empty(), "regions", "give each material a solid, or take a mesh"},
-        Given{!solid.sets.empty(), "sets", "leave them out; \"borders\" of \"grid\" hold the body"},
         Given{!solid.supports.empty(), "supports", "give \"grid\" a border of the kind held or symmetry"},
         Given{std::ranges::any_of(solid.loads,
                                   [](const Load& load) { return std::holds_alternative<NodalLoad>(load.kind); }),
@@ -196,6 +195,7 @@ PointFaces& addFaces(Built& built, const Solid& solid, const mpm::GridOptions& g
     throw InputError("faces of material points are those of a box, and \"" + solid.name + "\" is none", solid.where,
                      "fill a \"box\", or take the coupling \"points\" in place of loads, planes and surfaces");
   PointFaces faces{mpm::facesOfBox(grid, box->box, filling.perAxis)};
+  addSets(faces.mesh, solid);
   faces.set = body.addMarkers(faces.mesh.X);
   return built.faces.emplace(solid.name, std::move(faces)).first->second;
 }

@@ -14,8 +14,9 @@ namespace dovetail::mpm {
 /// @throws InputError for a grid that is not valid, perAxis < 1, or a box without volume
 MaterialPoints fillBox(const GridOptions& grid, const geometry::Box& box, int perAxis, const Vec3& velocity = {});
 
-/// The faces of the parts that are those of the box, as a mesh without elements: places for markers, face sets "x-" …
-/// "z+" and "skin", in the plane lines with the thickness of the box. @throws InputError as fillBox
+/// The faces of the parts that are those of the box, as a mesh without elements: places for markers, face and node
+/// sets "x-" … "z+", the face set "skin", in the plane lines with the thickness of the box. @throws InputError as
+/// fillBox
 fem::SolidMesh facesOfBox(const GridOptions& grid, const geometry::Box& box, int perAxis);
 
 /// In the middle of cubes (squares) of the spacing over `perAxis`, which begin at the grid's origin, where `inside`
