@@ -81,7 +81,7 @@ StableStep stableStep(Model& model, const std::string& of) {
   const double elements = 4.0 / (limit.dt * limit.dt);
   if (pull.rate > elements) {
     limit.node = pull.node, limit.solid = pull.term;
-    limit.owner = "node " + std::to_string(pull.node) + " of " + name + ", at which \"" + pull.term + "\" pulls,";
+    limit.owner = "node " + std::to_string(pull.node) + " of " + name + ", at which \"" + pull.term + "\" pulls";
   }
   limit.dt = 2.0 / std::sqrt(elements + pull.rate);
   return limit;

@@ -45,13 +45,13 @@ struct SupportNow {
   std::shared_ptr<const std::vector<Vec3>> from{};
 };
 
-/// A run, and data on its parts.
 /// Faces of a solid of material points: places of a set of markers.
 struct PointFaces {
   fem::SolidMesh mesh;  ///< without elements
   std::size_t set = 0;
 };
 
+/// A run, and data on its parts.
 struct Built {
   std::unique_ptr<coupling::CoupledRun> run;
   std::vector<fem::SolidMesh> meshes;                  ///< of the solids, in their order
