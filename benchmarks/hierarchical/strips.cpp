@@ -178,10 +178,12 @@ FigureRows rowsOf(const std::string& name, const Strip& strip, const std::vector
   FigureRows rows;
   if (packings > 1)
     rows.push_back(rowOf(name + ": strips of other packings differ from their mean by, %", scatter, std::nan(""), 0.0));
-  for (std::size_t m = 0; m < meshes.size(); ++m)
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    const bool isFinest = judged && packings > 1 && m + 1 == meshes.size();
     rows.push_back(rowOf(name + ": misfit 300 mm from the end, " + std::to_string(meshes[m]) + " elements, %",
-                         misfits[m], judged && packings > 1 && m + 1 == meshes.size() ? 0.0 : std::nan(""),
-                         rows.empty() ? 0.0 : rows[0].here, packings > 1 ? "below that scatter" : ""));
+                         misfits[m], isFinest ? 0.0 : std::nan(""), isFinest ? rows[0].here : 0.0,
+                         isFinest ? "below that scatter" : ""));
+  }
   rows.push_back(rowOf(name + ": the solid of the finest mesh is late by, %", late, judged ? 0.0 : std::nan(""), 0.5));
   return rows;
 }

@@ -1,5 +1,6 @@
 #include "contact_list.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -206,7 +207,9 @@ std::vector<double> sumsOf(const Contacts& contacts, std::size_t grains) {
 }  // namespace
 
 double listReach(const Rve& cell) {
-  return 2.0 * *std::max_element(cell.radius.begin(), cell.radius.end()) + cell.skin;
+  // Asked for in every step: by vectors.
+  return 2.0 * Eigen::Map<const Eigen::ArrayXd>(cell.radius.data(), static_cast<Eigen::Index>(cell.size())).maxCoeff() +
+         cell.skin;
 }
 
 double fractionOf(const Frame& frame, int p, int q) {

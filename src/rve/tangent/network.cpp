@@ -26,6 +26,25 @@ Eigen::Matrix<double, Eigen::Dynamic, Matrix::ColsAtCompileTime, 0, 9, Matrix::M
   return result;
 }
 
+/// Calls visit(i, j, branch, normal stiffness, m) for every contact and bond; m is the matrix of its virtual work:
+/// force on the branch, less moments on turns.
+template <class Visit>
+void forEachStiffness(const Rve& cell, const Linearisation& what, const Visit& visit) {
+  const auto take = [&](const auto& of, double stiffness) {
+    ContactMatrix m = linearised(cell, of, what);
+    m.bottomRows<6>() *= -1.0;
+    visit(of.i, of.j, of.branch, stiffness, m);
+  };
+  forEachTouch(cell, [&](const Touch& touch) { take(touch, touch.stiffness); });
+  forEachBond(cell, [&](const BondTouch& bond) { take(bond, bond.normalStiffness); });
+}
+
+/// Sᵀ m S.
+Eigen::MatrixXd stressByStrain(const Vec3& branch, int dimension, const ContactMatrix& m) {
+  const ContactMatrix transposed = m.transpose();
+  return ofStrains(branch, dimension, ofStrains(branch, dimension, transposed).transpose().eval());
+}
+
 /// By columns.
 auto entries(auto&& matrix) { return std::span(matrix.data(), static_cast<std::size_t>(matrix.size())); }
 
@@ -36,6 +55,15 @@ auto entries(auto&& matrix) { return std::span(matrix.data(), static_cast<std::s
 
 }  // namespace
 
+Eigen::MatrixXd affineStressByStrain(const Rve& cell, const Linearisation& what) {
+  const int dimension = cell.dimension();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dimension * dimension, dimension * dimension);
+  forEachStiffness(cell, what, [&](std::size_t, std::size_t, const Vec3& branch, double, const ContactMatrix& m) {
+    sum += stressByStrain(branch, dimension, m);
+  });
+  return sum;
+}
+
 Network::Network(const Rve& cell, const Linearisation& what)
     : cell_(cell),
       frame_(rowsOf(cell)),
@@ -45,14 +73,11 @@ Network::Network(const Rve& cell, const Linearisation& what)
   forceByStrain_ = Eigen::MatrixXd::Zero(size_, strains_);
   stressByUnknown_ = Eigen::MatrixXd::Zero(strains_, size_);
   stressByStrain_ = Eigen::MatrixXd::Zero(strains_, strains_);
-  forEachTouch(cell, [&](const Touch& touch) {
-    stiffest_ = std::max(stiffest_, touch.stiffness);
-    add(touch.i, touch.j, touch.branch, linearised(cell, touch, what));
-  });
-  forEachBond(cell, [&](const BondTouch& bond) {
-    stiffest_ = std::max(stiffest_, bond.normalStiffness);
-    add(bond.i, bond.j, bond.branch, linearised(cell, bond, what));
-  });
+  forEachStiffness(cell, what,
+                   [&](std::size_t i, std::size_t j, const Vec3& branch, double stiffness, const ContactMatrix& m) {
+                     stiffest_ = std::max(stiffest_, stiffness);
+                     add(i, j, branch, m);
+                   });
 }
 
 void Network::numberUnknowns() {
@@ -67,13 +92,11 @@ void Network::numberUnknowns() {
   size_ = nodes_ * perGrain_ + static_cast<int>(frame_.rows.size());
 }
 
-void Network::add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatrix m) {
-  // Virtual work of the contact: force on b, less moments on turns.
-  m.bottomRows<6>() *= -1.0;
+void Network::add(std::size_t i, std::size_t j, const Vec3& branch, const ContactMatrix& m) {
   const ContactMatrix transposed = m.transpose();
   const auto stressed = ofStrains(branch, cell_.dimension(), m);
   const auto strained = ofStrains(branch, cell_.dimension(), transposed);
-  stressByStrain_ += ofStrains(branch, cell_.dimension(), strained.transpose().eval());
+  stressByStrain_ += stressByStrain(branch, cell_.dimension(), m);
   // How b and the turns follow the components of both grains that are unknown.
   std::array<int, 12> follows, at;
   std::array<double, 12> sign;

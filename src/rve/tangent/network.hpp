@@ -12,6 +12,9 @@
 
 namespace dovetail::rve {
 
+/// What is conjugate to strain, V σ, by strain while all grains move and turn with it, J. Without the network.
+Eigen::MatrixXd affineStressByStrain(const Rve& cell, const Linearisation& what);
+
 /// Forces on the unknowns, and stresses, by unknowns and by strain. Unknowns are displacements and turns of grains that
 /// the frame's conditions leave, then multipliers of the other conditions. Strains are components of δF F⁻¹ and, of
 /// discs, those in the plane, by rows; grains turn with its spin.
@@ -19,10 +22,9 @@ class Network {
 public:
   Network(const Rve& cell, const Linearisation& what);
 
-  /// What is conjugate to strain, V σ, by strain while all grains move and turn with it, J.
-  const Eigen::MatrixXd& stressByStrain() const { return stressByStrain_; }
-  /// The same after what is unbalanced has been relaxed: of spheres by bi-conjugate gradients on what is left when
-  /// grains with few contacts are eliminated, to 1e-6 of its norm or better, or factorised where these do not converge.
+  /// What is conjugate to strain, V σ, by strain after what is unbalanced has been relaxed: of spheres by bi-conjugate
+  /// gradients on what is left when grains with few contacts are eliminated, to 1e-6 of its norm or better, or
+  /// factorised where these do not converge.
   /// @throws NumericalError if the network is singular
   Eigen::MatrixXd relaxedStressByStrain();
   /// Displacements and turns that would balance the forces now. @throws NumericalError if the network is singular
@@ -36,8 +38,8 @@ private:
   };
 
   void numberUnknowns();
-  /// Both grains of a contact, its branch, m, force and moments by these.
-  void add(std::size_t i, std::size_t j, const Vec3& branch, ContactMatrix m);
+  /// Both grains of a contact, its branch, m, and its virtual work by these.
+  void add(std::size_t i, std::size_t j, const Vec3& branch, const ContactMatrix& m);
   void factor();
   void addMultipliers(linalg::MultifrontalLu& matrix) const;
   SphereRows rowsOfSpheres(double r) const;

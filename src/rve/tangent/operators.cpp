@@ -70,7 +70,7 @@ Tangent frictionalTangent(const Rve& cell) {
   return pulledBack(cell, Network(cell, {.slips = true}).relaxedStressByStrain());
 }
 
-Tangent voigtTangent(const Rve& cell) { return pulledBack(cell, Network(cell, {.prestress = false}).stressByStrain()); }
+Tangent voigtTangent(const Rve& cell) { return pulledBack(cell, affineStressByStrain(cell, {.prestress = false})); }
 
 Tangent elasticProbe(const Rve& start, const ProbeOptions& settings) {
   requirePositive(settings.strain, "strain of the probe");

@@ -2,12 +2,15 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include "build/parts.hpp"
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
 #include "dovetail/hierarchical/cell_field.hpp"
 #include "dovetail/io/names.hpp"
 #include "dovetail/rve/rve_archive.hpp"
@@ -24,6 +27,14 @@ CellMeasures measured(const rve::Rve& cell) {
           .sliding = balance.contacts > 0 ? static_cast<double>(balance.sliding) / balance.contacts : 0.0,
           .fabric = rve::fabric(cell),
           .cauchy = rve::stress(cell).cauchy};
+}
+
+/// Calls look(k) of n cells: contacts of hundreds of grains each.
+template <class Look>
+void inParts(std::size_t n, const Look& look) {
+  parallelFor(n, 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) look(k);
+  });
 }
 
 }  // namespace
@@ -55,12 +66,13 @@ std::vector<MeshField> cellsAt(const Points& points) {
                                 {"sliding", {}, 1, false},
                                 {"fabric", {}, 9, false}};
   for (MeshField& field : fields) field.values.resize(points.size() * static_cast<std::size_t>(field.components));
-  bool any = false;
-  std::size_t number = 0;
-  forEachPoint(points, [&](const Points::Part& part, std::size_t p) {
-    const std::size_t at = number++;
-    if (!part.field) return;
-    hierarchical::visitCell(*part.field, p, [&](const rve::Rve& cell) {
+  std::vector<std::pair<const Points::Part*, std::size_t>> places;
+  forEachPoint(points, [&](const Points::Part& part, std::size_t p) { places.emplace_back(&part, p); });
+  std::atomic<bool> any = false;
+  inParts(places.size(), [&](std::size_t at) {
+    const auto [part, p] = places[at];
+    if (!part->field) return;
+    hierarchical::visitCell(*part->field, p, [&](const rve::Rve& cell) {
       const CellMeasures now = measured(cell);
       fields[0].values[at] = now.voidRatio;
       fields[1].values[at] = now.coordination;
@@ -135,14 +147,15 @@ void visit(const CellPoint& place, const std::function<void(const rve::Rve&)>& l
 }
 
 CellMeasures meanOf(const std::vector<CellPoint>& cells, int& dimension) {
+  std::vector<CellMeasures> all(cells.size());
+  inParts(cells.size(),
+          [&](std::size_t k) { visit(cells[k], [&](const rve::Rve& cell) { all[k] = measured(cell); }); });
+  visit(cells.front(), [&](const rve::Rve& cell) { dimension = cell.dimension(); });
   CellMeasures sum;
   double volume = 0.0;
-  for (const CellPoint& one : cells) {
-    visit(one, [&](const rve::Rve& cell) {
-      dimension = cell.dimension();
-      sum += measured(cell) * one.volume;
-    });
-    volume += one.volume;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    sum += all[k] * cells[k].volume;
+    volume += cells[k].volume;
   }
   return sum * (1.0 / volume);
 }
