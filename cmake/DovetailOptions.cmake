@@ -71,6 +71,17 @@ dovetail_optional(json "scenes, and the benchmarks' summaries" nlohmann_json)
 option(DOVETAIL_PROGRAM "Build the program dovetail, which runs scenes" ${PROJECT_IS_TOP_LEVEL})
 option(DOVETAIL_PROGRAM_CGAL "Let dovetail fill surfaces with tetrahedra by CGAL, which puts the program under the GPL" OFF)
 
+option(DOVETAIL_PYTHON "Build the Python module dovetail (needs pybind11 and numpy)" OFF)
+if(DOVETAIL_PYTHON)
+  # Debian's, with Debian's numpy: others in front of it in PATH seldom have one.
+  if(NOT Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python_EXECUTABLE /usr/bin/python3)
+  endif()
+  find_package(Python 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.10 REQUIRED CONFIG)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+endif()
+
 if(DOVETAIL_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

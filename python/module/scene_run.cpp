@@ -1,0 +1,90 @@
+#include "scene_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <numeric>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/dem/model/loads.hpp"
+
+namespace dovetail::python {
+
+namespace {
+
+std::vector<int> byIds(const dem::Particles& particles) {
+  std::vector<int> grains;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (!particles.isOfSolid(i)) grains.push_back(static_cast<int>(i));
+  std::ranges::sort(grains, {}, [&](int i) { return particles.id[static_cast<std::size_t>(i)]; });
+  return grains;
+}
+
+/// A function of Python's, which is copied and let go of with the interpreter's lock alone.
+std::shared_ptr<py::function> held(py::function function) {
+  return {new py::function(std::move(function)), [](py::function* one) {
+            const py::gil_scoped_acquire lock;
+            delete one;
+          }};
+}
+
+}  // namespace
+
+SceneRun::SceneRun(scene::Scene scene) : scene_(std::move(scene)), built_(scene::build(scene_)) {
+  scene::start(built_, scene_);
+}
+
+void SceneRun::requireWhole() const {
+  if (broken_)
+    throw InputError("a step of this run was broken off", "Run", "load a state, or make the run anew from its scene");
+}
+
+void SceneRun::advance(std::int64_t steps) {
+  using Clock = std::chrono::steady_clock;
+  requireWhole();
+  if (steps < 0) throw InputError("the number of steps is " + std::to_string(steps), "advance", "give 0 or more");
+  std::int64_t atOnce = 1;
+  while (steps > 0) {
+    const std::int64_t next = std::min(steps, atOnce);
+    const auto begin = Clock::now();
+    try {
+      const py::gil_scoped_release free;
+      run().advance(next, next == steps);
+    } catch (...) {
+      broken_ = true;
+      throw;
+    }
+    steps -= next;
+    if (Clock::now() - begin < std::chrono::milliseconds(50)) atOnce *= 2;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+void SceneRun::take(const std::vector<char>& state) {
+  run().load(state);
+  broken_ = false;
+}
+
+void SceneRun::addForce(const std::string& name, py::function function) {
+  requireWhole();
+  const auto call = held(std::move(function));
+  const auto force = [this, name, call](const dem::Particles& particles, double time, std::span<Vec3> total) {
+    const std::vector<int>& which = grains();
+    const py::gil_scoped_acquire lock;
+    const Numbers answer = py::cast<Numbers>((*call)(time, rowsOf(particles.x, which), rowsOf(particles.v, which)));
+    const std::vector<Vec3> forces = vectorsOf(answer, which.size(), name);
+    for (std::size_t k = 0; k < which.size(); ++k) total[static_cast<std::size_t>(which[k])] += forces[k];
+  };
+  const dem::Particles& particles = run().grains.particles;
+  std::vector<Vec3> tried(particles.size());
+  force(particles, run().time(), tried);  // what it refuses, it refuses before anything changes
+  run().change([&] { run().grains.terms.add(dem::ExternalForceTerm(name, force)); });
+}
+
+const std::vector<int>& SceneRun::grains() {
+  const dem::Particles& particles = run().grains.particles;
+  if (grainsOf_ != particles.revision) grains_ = byIds(particles), grainsOf_ = particles.revision;
+  return grains_;
+}
+
+}  // namespace dovetail::python

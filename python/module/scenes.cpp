@@ -1,0 +1,106 @@
+// Scenes as a whole: what the program's verbs do.
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <ostream>
+#include <sstream>
+#include <streambuf>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/io/interruption.hpp"
+#include "dovetail/io/output_folder.hpp"
+#include "dovetail/scene/execute.hpp"
+#include "dovetail/scene/read.hpp"
+#include "scene_run.hpp"
+
+namespace dovetail::python {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Passes whole lines on to a function of Python's.
+class Lines final : public std::streambuf {
+public:
+  explicit Lines(const py::function& write) : write_(write) {}
+
+private:
+  int overflow(int c) override {
+    if (c != traits_type::eof()) line_ += static_cast<char>(c);
+    if (c == '\n') sync();
+    return c;
+  }
+  std::streamsize xsputn(const char* text, std::streamsize n) override {
+    line_.append(text, static_cast<std::size_t>(n));
+    if (line_.ends_with('\n')) sync();
+    return n;
+  }
+  int sync() override {
+    if (line_.empty()) return 0;
+    const py::gil_scoped_acquire lock;
+    write_(std::exchange(line_, {}));
+    return 0;
+  }
+  const py::function& write_;
+  std::string line_;
+};
+
+scene::Scene sceneOf(const std::string& text, const std::string& name, const fs::path& folder,
+                     const std::vector<std::string>& settings) {
+  return scene::sceneFromText(text, name, folder, settings);
+}
+
+/// A run under way ends at Ctrl-C as the program does: with a checkpoint.
+void endAs(bool finished) {
+  if (finished || io::interruption() == 0) return;
+  PyErr_SetString(PyExc_KeyboardInterrupt, io::nameOfInterruption().c_str());
+  throw py::error_already_set();
+}
+
+void runScene(const scene::Scene& scene, const fs::path& folder, bool replace, const py::function& write) {
+  if (!replace) io::requireNoRun(folder);
+  const io::InterruptionGuard guard;
+  Lines lines(write);
+  std::ostream log(&lines);
+  const bool finished = [&] {
+    const py::gil_scoped_release free;
+    return scene::run(scene, {.folder = folder, .progress = false}, log);
+  }();
+  endAs(finished);
+}
+
+void resumeRun(const fs::path& folder, std::optional<double> until, const py::function& write) {
+  const io::InterruptionGuard guard;
+  Lines lines(write);
+  std::ostream log(&lines);
+  const bool finished = [&] {
+    const py::gil_scoped_release free;
+    return scene::resume({.folder = folder, .progress = false, .until = until}, log);
+  }();
+  endAs(finished);
+}
+
+std::string checkScene(const scene::Scene& scene) {
+  std::ostringstream log;
+  const py::gil_scoped_release free;
+  scene::check(scene, log);
+  return log.str();
+}
+
+}  // namespace
+
+void bindScenes(py::module_& m) {
+  py::class_<scene::Scene>(m, "Scene", "All that a scene file says.")
+      .def(py::init(&sceneOf), py::arg("text"), py::arg("name"), py::arg("folder"), py::arg("settings"))
+      .def("__str__", &scene::sceneText, "The scene in full, in SI units, as JSON.");
+  m.def("read_scene", [](const fs::path& file, const std::vector<std::string>& settings) {
+    return scene::readScene(file, settings);
+  });
+  m.def("run_scene", &runScene);
+  m.def("resume_run", &resumeRun);
+  m.def("check_scene", &checkScene);
+  m.def("schema", &scene::schemaText, "JSON Schema of scenes, as text.");
+}
+
+}  // namespace dovetail::python
