@@ -126,7 +126,7 @@ Tangent AveragedTangent::next(const Eigen::Matrix3d& nowF, const Eigen::Matrix3d
   if (frozen) return at(nowF);
   F = nowF;
   P = nowP;
-  const Tangent now = probe();
+  Tangent now = probe();
   mean += (turned(now, polar(F).turn.transpose()) - mean) / ++count;
   return now;
 }
