@@ -41,8 +41,7 @@ void forEachStiffness(const Rve& cell, const Linearisation& what, const Visit& v
 
 /// Sᵀ m S.
 Eigen::MatrixXd stressByStrain(const Vec3& branch, int dimension, const ContactMatrix& m) {
-  const ContactMatrix transposed = m.transpose();
-  return ofStrains(branch, dimension, ofStrains(branch, dimension, transposed).transpose().eval());
+  return ofStrains(branch, dimension, ofStrains(branch, dimension, m.transpose().eval()).transpose().eval());
 }
 
 /// By columns.
@@ -93,9 +92,8 @@ void Network::numberUnknowns() {
 }
 
 void Network::add(std::size_t i, std::size_t j, const Vec3& branch, const ContactMatrix& m) {
-  const ContactMatrix transposed = m.transpose();
   const auto stressed = ofStrains(branch, cell_.dimension(), m);
-  const auto strained = ofStrains(branch, cell_.dimension(), transposed);
+  const auto strained = ofStrains(branch, cell_.dimension(), m.transpose().eval());
   stressByStrain_ += stressByStrain(branch, cell_.dimension(), m);
   // How b and the turns follow the components of both grains that are unknown.
   std::array<int, 12> follows, at;
