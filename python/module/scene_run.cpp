@@ -31,10 +31,21 @@ std::shared_ptr<py::function> held(py::function function) {
 }  // namespace
 
 SceneRun::SceneRun(scene::Scene scene) : scene_(std::move(scene)), built_(scene::build(scene_)) {
+  if (!scene_.stages.empty() && scene_.stages.front().changes)
+    throw InputError("the first stage changes something, and steps make no stages", scene_.stages.front().where,
+                     "write what it changes where the scene describes it, or run the whole scene");
   scene::start(built_, scene_);
 }
 
-void SceneRun::requireWhole() const {
+scene::Built& SceneRun::built() {
+  if (steps_)
+    throw InputError("a step is under way", "Run",
+                     "wait for its end; in a force use what the function is given, its time, places and velocities");
+  return built_;
+}
+
+void SceneRun::requireWhole() {
+  built();
   if (broken_)
     throw InputError("a step of this run was broken off", "Run", "load a state, or make the run anew from its scene");
 }
@@ -47,13 +58,16 @@ void SceneRun::advance(std::int64_t steps) {
   while (steps > 0) {
     const std::int64_t next = std::min(steps, atOnce);
     const auto begin = Clock::now();
+    steps_ = true;
     try {
       const py::gil_scoped_release free;
-      run().advance(next, next == steps);
+      built_.run->advance(next, next == steps);
     } catch (...) {
       broken_ = true;
+      steps_ = false;
       throw;
     }
+    steps_ = false;
     steps -= next;
     if (Clock::now() - begin < std::chrono::milliseconds(50)) atOnce *= 2;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -69,7 +83,7 @@ void SceneRun::addForce(const std::string& name, py::function function) {
   requireWhole();
   const auto call = held(std::move(function));
   const auto force = [this, name, call](const dem::Particles& particles, double time, std::span<Vec3> total) {
-    const std::vector<int>& which = grains();
+    const std::vector<int>& which = grainsNow();
     const py::gil_scoped_acquire lock;
     const Numbers answer = py::cast<Numbers>((*call)(time, rowsOf(particles.x, which), rowsOf(particles.v, which)));
     const std::vector<Vec3> forces = vectorsOf(answer, which.size(), name);
@@ -82,7 +96,12 @@ void SceneRun::addForce(const std::string& name, py::function function) {
 }
 
 const std::vector<int>& SceneRun::grains() {
-  const dem::Particles& particles = run().grains.particles;
+  built();
+  return grainsNow();
+}
+
+const std::vector<int>& SceneRun::grainsNow() {
+  const dem::Particles& particles = built_.run->grains.particles;
   if (grainsOf_ != particles.revision) grains_ = byIds(particles), grainsOf_ = particles.revision;
   return grains_;
 }

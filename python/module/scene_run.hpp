@@ -13,10 +13,10 @@
 
 namespace dovetail::python {
 
-/// Built and started at its first stage, whose changes are made.
+/// Built and started as its scene describes it; stages and outputs are left to runs of the whole scene.
 class SceneRun {
 public:
-  /// @throws InputError as scene::build and scene::start
+  /// @throws InputError as scene::build and scene::start; if the first stage changes something
   explicit SceneRun(scene::Scene scene);
 
   /// Macro steps; asks Python now and then whether somebody wants to end (Ctrl-C), which ends between two of them.
@@ -25,23 +25,27 @@ public:
   /// A state of this scene. @throws InputError as CoupledRun::load
   void take(const std::vector<char>& state);
   /// @throws InputError after a step that was broken off
-  void requireWhole() const;
+  void requireWhole();
 
-  /// Forces on grains beside all others: function(t, x, v) gives N for each grain, in the order of ids.
+  /// Forces on grains beside all others: function(t, x, v), s, m, m/s, gives N for each grain, (N, 3), in the order of
+  /// ids. @throws InputError, before anything has changed, for another shape or numbers that are not finite
   void addForce(const std::string& name, py::function function);
 
   const scene::Scene& scene() const { return scene_; }
-  scene::Built& built() { return built_; }
-  coupling::CoupledRun& run() { return *built_.run; }
+  scene::Built& built();
+  /// @throws InputError while a step is under way: from a callback, or from another thread
+  coupling::CoupledRun& run() { return *built().run; }
   /// Numbers of the grains by ascending id, without those that stand for points of solids.
   const std::vector<int>& grains();
 
 private:
+  const std::vector<int>& grainsNow();
+
   scene::Scene scene_;
   scene::Built built_;
   std::vector<int> grains_;
   std::int64_t grainsOf_ = -1;
-  bool broken_ = false;
+  bool broken_ = false, steps_ = false;
 };
 
 void bindScenes(py::module_& m);

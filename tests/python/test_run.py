@@ -181,6 +181,22 @@ class Forces(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "broken off"):
             run.advance(1)
 
+    def test_cannot_step_or_look_at_the_run_within_a_step(self):
+        for act in (lambda run: run.advance(1), lambda run: run.grains.x, lambda run: run.ledger,
+                    lambda run: run.save()):
+            run = dv.Run(beads(2))
+            started = []
+
+            def force(t, x, v):
+                if started:
+                    act(run)
+                return 0 * x
+
+            run.force(force)
+            started.append(True)
+            with self.assertRaisesRegex(ValueError, "a step is under way"):
+                run.advance(1)
+
     def test_of_the_wrong_shape_are_refused(self):
         run = dv.Run(beads(2))
         with self.assertRaisesRegex(ValueError, r"the shape is \(7, 3\) \[drag\]"):
@@ -205,6 +221,12 @@ class Errors(unittest.TestCase):
             dv.Run(SCENES / "plate.json", sped=1)
         run = dv.Run(beads(2), **{"steps.dt": 1e-5})
         self.assertEqual(run.dt, 1e-5)
+
+    def test_changes_of_the_first_stage_are_refused_step_by_step(self):
+        scene = beads(2)
+        scene["stages"][0]["changes"] = {"gravity": [0, 0, 0]}
+        with self.assertRaisesRegex(ValueError, "first stage changes"):
+            dv.Run(scene)
 
     def test_runs_that_break_down(self):
         run = dv.Run(beads(2))
@@ -240,6 +262,23 @@ class Python(unittest.TestCase):
         done.set()
         other.join()
         self.assertGreater(during, 5)
+
+    def test_others_wait_for_the_end_of_a_step(self):
+        run = dv.Run(beads())
+        seen = []
+
+        def look():
+            for _ in range(50):
+                try:
+                    seen.append(run.grains.x.shape)
+                except ValueError as error:
+                    seen.append(str(error))
+
+        other = threading.Thread(target=look)
+        other.start()
+        run.advance(3000)
+        other.join()
+        self.assertTrue(all(one == (64, 3) or "under way" in one for one in seen))
 
     def test_runs_live_as_long_as_what_is_of_them(self):
         grains = dv.Run(beads(2)).grains

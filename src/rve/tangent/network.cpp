@@ -39,9 +39,9 @@ void forEachStiffness(const Rve& cell, const Linearisation& what, const Visit& v
   forEachBond(cell, [&](const BondTouch& bond) { take(bond, bond.normalStiffness); });
 }
 
-/// Sᵀ m S.
-Eigen::MatrixXd stressByStrain(const Vec3& branch, int dimension, const ContactMatrix& m) {
-  return ofStrains(branch, dimension, ofStrains(branch, dimension, m.transpose().eval()).transpose().eval());
+/// Sᵀ m S, of Sᵀ mᵀ.
+Eigen::MatrixXd stressByStrain(const Vec3& branch, int dimension, const auto& strained) {
+  return ofStrains(branch, dimension, strained.transpose().eval());
 }
 
 /// By columns.
@@ -58,7 +58,7 @@ Eigen::MatrixXd affineStressByStrain(const Rve& cell, const Linearisation& what)
   const int dimension = cell.dimension();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(dimension * dimension, dimension * dimension);
   forEachStiffness(cell, what, [&](std::size_t, std::size_t, const Vec3& branch, double, const ContactMatrix& m) {
-    sum += stressByStrain(branch, dimension, m);
+    sum += stressByStrain(branch, dimension, ofStrains(branch, dimension, m.transpose().eval()));
   });
   return sum;
 }
@@ -94,7 +94,7 @@ void Network::numberUnknowns() {
 void Network::add(std::size_t i, std::size_t j, const Vec3& branch, const ContactMatrix& m) {
   const auto stressed = ofStrains(branch, cell_.dimension(), m);
   const auto strained = ofStrains(branch, cell_.dimension(), m.transpose().eval());
-  stressByStrain_ += stressByStrain(branch, cell_.dimension(), m);
+  stressByStrain_ += stressByStrain(branch, cell_.dimension(), strained);
   // How b and the turns follow the components of both grains that are unknown.
   std::array<int, 12> follows, at;
   std::array<double, 12> sign;
