@@ -12,6 +12,7 @@ struct Case {
 };
 
 // One source file each.
+bool bands(bool quick);
 bool bar(bool quick);
 bool block(bool quick);
 bool cells(bool quick);

@@ -21,6 +21,7 @@ const std::vector<Case> cases{
     {"run-out", "A column of sand collapses", runOut},
     {"footing", "A strip footing on weightless sand", footing},
     {"vortex", "A ring turns within itself, manufactured", vortex},
+    {"bands", "Soft sand forms a band", bands},
     {"stretch", "A bar is pulled until its points part", stretch},
     {"stability", "Blocks that are thrown, hit and spun", stability},
     {"speed", "Cost of a step", speed},

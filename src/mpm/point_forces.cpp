@@ -1,10 +1,10 @@
 #include <algorithm>
 
+#include "deformation.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
 #include "points.hpp"
-#include "scatter.hpp"
 
 namespace dovetail::mpm::detail {
 
@@ -54,36 +54,8 @@ std::size_t Points::memory() const {
                rows_.pointOfCell, rows_.firstOfNode, rows_.entryOfNode, rows_.X, rows_.fixed);
 }
 
-namespace {
-
-/// F = (1 + Σ u ⊗ ∂w/∂x) F₀ of the points of a cell; in the plane the third row stays as it is.
-template <int axes>
-void deform(const GridRows& rows, std::size_t cell, const OfReached<Vec3>& u, const std::vector<double>& F0,
-            std::span<double> F) {
-  eachPointOf(rows, cell, [&](std::size_t p) {
-    double G[9] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    const Vec3* const slope = &rows.slope[rows.perPoint * p];
-    for (std::size_t a = 0; a < rows.perPoint; ++a) addOuter<axes>(u[a], slope[a], G);
-    const double* const before = &F0[9 * p];
-    for (std::size_t J = 0; J < 3; ++J) {
-      Vec3 column;
-      addProduct<axes>(G, {before[J], before[3 + J], before[6 + J]}, column);
-      F[9 * p + J] = column.x, F[9 * p + 3 + J] = column.y;
-      F[9 * p + 6 + J] = axes == 3 ? column.z : before[6 + J];
-    }
-  });
-}
-
-}  // namespace
-
 void Points::findDeformation(std::span<const Vec3> u) {
-  withAxes(options_.grid.plane, [&](auto axes) {
-    eachCell(rows_, [&](std::size_t c) {
-      OfReached<Vec3> seen;
-      look(rows_, c, u, seen);
-      deform<axes>(rows_, c, seen, F0_, answers_.F());
-    });
-  });
+  detail::findDeformation(rows_, options_.grid.plane, F0_, u, answers_.F());
 }
 
 /// Unless the points have answered for this state. Those of a new grid have: their state is the one that was accepted.
@@ -95,19 +67,8 @@ void Points::ask(const Nodes& nodes, const Instant& now, Wanted wanted) {
   answers_.ask(nodes.u, now, wanted, options_.name);
 }
 
-/// f −= ∂U/∂u, Σ V₀ P F₀ᵀ ∂w/∂x.
 void Points::addAnswers(std::span<Vec3> f) const {
-  const std::span<const double> P = answers_.P();
-  withAxes(options_.grid.plane, [&](auto axes) {
-    addToNodes<Vec3>(rows_, f, [&](std::size_t p, OfReached<Vec3>& sums) {
-      const double *const own = &P[9 * p], *const F0 = &F0_[9 * p];
-      double stress[9] = {};
-      for (std::size_t J = 0; J < 3; ++J)
-        addOuter<axes>({own[J], own[3 + J], own[6 + J]}, -volume_[p] * Vec3{F0[J], F0[3 + J], F0[6 + J]}, stress);
-      const Vec3* const slope = &rows_.slope[rows_.perPoint * p];
-      for (std::size_t a = 0; a < rows_.perPoint; ++a) addProduct<axes>(stress, slope[a], sums[a]);
-    });
-  });
+  addStresses(rows_, options_.grid.plane, F0_, answers_.P(), volume_, f);
 }
 
 double Points::volumeSum(std::span<const double> perVolume) const {

@@ -24,6 +24,8 @@ public:
 
   std::vector<Vec3> places(const fem::Nodes& nodes) const override;
   const GridRows& rows() const override { return rows_; }
+  const GridOptions& grid() const override { return options_.grid; }
+  const std::vector<double>& laidDeformation() const override { return F0_; }
   const std::vector<double>& masses() const override { return carried_.mass; }
   const fem::FieldAnswers& answers() const override { return answers_; }
   double beyondNodes() const override { return beyond_; }

@@ -75,7 +75,6 @@ TEST(ScenePoints, RefuseWhatNeedsElements) {
               {"solids.0", "forces on nodes", "pressure"});
   expectParts(refused(R"(, "loads": [{"on": "z+", "type": "pressure", "pressure": 1}])"), {"solids.0.loads.0", "z+"});
   expectParts(refused(R"(, "formulation": "enhanced")"), {"formulation"});
-  expectParts(refused(R"(, "gradient": {"modulus": 1})"), {"gradient"});
   expectParts(refused(R"(, "consistent_mass": 1)"), {"consistent mass"});
   expectParts(refusalOf(sceneOf(body(R"("from": "cylinder", "point": [0, 1, 0], "axis": [0, 0, 1], "radius": 0.2, )"
                                      R"("length": 0.3)",

@@ -77,6 +77,7 @@ constexpr const char* inParts =
                                             {"name": "hit", "place": "box", "box": [[0.05, 0.19, -1], [1, 0.21, 1]]}],
       "planes": [{"on": "pressed", "point": [0, 0.2, 0], "normal": [0, -1, 0], "velocity": [0, -0.05, 0],
                   "friction": 0.5}], )";
+constexpr const char* wide = R"("gradient": {"modulus": 20}, )";
 constexpr const char* periods = R"("periodic": {"box": [[-0.3, -0.1, -0.05], [0.7, 1, 0.05]], "axes": ["x"]},)";
 INSTANTIATE_TEST_SUITE_P(
     Scenes, PointsBeside,
@@ -85,6 +86,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Beside{"FacesInPeriods", false, "surface", periods},
                     Beside{"FacesInParts", false, "surface", "", R"("dt": 1e-4)", inParts, false, "hit"},
                     Beside{"CellsWithFacesInParts", true, "surface", "", R"("dt": 1e-4)", inParts, false, "hit"},
+                    Beside{"FacesWithGradient", false, "surface", "", inFours, wide},
+                    Beside{"FacesImplicitWithGradient", false, "surface", "", inFours,
+                           R"("gradient": {"modulus": 20}, "stepping": "implicit", )"},
+                    Beside{"Gradient", false, "points", "", R"("dt": 1e-4)", wide},
+                    Beside{"GradientInPeriods", false, "points", periods, R"("dt": 1e-4)", wide},
+                    Beside{"CellsWithGradient", true, "points", "", R"("dt": 1e-4)", wide},
                     Beside{"FacesRelax", false, "surface", "", R"("dt": 1e-4)", "", true}, Beside{"Cells", true},
                     Beside{"CellsWithFaces", true, "surface"}, Beside{"CellsInFours", true, "points", "", inFours},
                     Beside{"CellsInPeriods", true, "points", periods},

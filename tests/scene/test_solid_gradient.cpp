@@ -27,8 +27,19 @@ std::string sheet(const std::string& keys, const std::string& cell = "quad8") {
                    "friction_angle": 0.3}, )" +
          keys + "}],";
 }
+/// The same of material points, from its border up.
+std::string pointsOf(const std::string& keys) {
+  return R"("solids": [{"name": "soil", "mesh": "points", "points": {"from": "box", "box": [[0, 0, 0], [1, 2, 1]]},
+      "grid": {"spacing": 0.25, "plane_strain": true, "borders": [{"side": "y-", "at": 0}]},
+      "material": {"law": "Drucker-Prager", "youngs_modulus": 50e6, "poisson_ratio": 0.3, "density": 2000,
+                   "cohesion": 50e3, "cohesion_curve": [{"plastic_strain": 0.25, "cohesion": 20e3}],
+                   "friction_angle": 0.3}, )" +
+         keys + "}],";
+}
 const std::string gradient = R"("gradient": {"modulus": "100 N"})";
 const std::string reduced = R"("formulation": "reduced", )" + gradient;
+const std::string plate = R"("planes": [{"on": "y+", "point": [0, 2, 0], "normal": [0, -1, 0],
+    "velocity": [0, -1, 0], "friction": 0.5}])";
 const std::string pressed = R"("supports": [{"on": "y-"}, {"on": "y+", "displacement": [0, "-0.1*t", 0]}])";
 
 TEST(SolidGradient, StoresItsEnergyInAChannelOfItsOwn) {
@@ -36,6 +47,10 @@ TEST(SolidGradient, StoresItsEnergyInAChannelOfItsOwn) {
   built.run->advance(100);
   EXPECT_GT(channel(built, "soil: gradient of F"), 0.0);
   EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-3 * std::abs(channel(built, "soil: supports")));
+  Built ofPoints = started(sceneOf(pointsOf(gradient + ", " + plate)));
+  ofPoints.run->advance(400);
+  EXPECT_GT(channel(ofPoints, "soil: gradient of F"), 0.0);
+  EXPECT_LT(std::abs(ofPoints.run->ledger().residual()), 1e-3 * channel(ofPoints, "soil: points"));
 }
 
 TEST(SolidGradient, IsRefusedWhereThereIsNone) {
@@ -84,7 +99,7 @@ TEST(SolidGradient, HasTheSameDigitsForAnyThreadsAndAfterARestart) {
   for (const std::string& middle : {soil(gradient) + ball + onSkin, soil(gradient) + layerOfGrains,
                                     soil(gradient + R"(, "planes": [{"on": "z+", "point": [0, 0, 0.4],
                                        "normal": [0, 0, -1], "velocity": [0, 0, -1]}])"),
-                                    sheet(reduced + ", " + pressed)}) {
+                                    sheet(reduced + ", " + pressed), pointsOf(gradient + ", " + plate)}) {
     const std::vector<Vec3> one = onThreads(1, [&] { return placesAfter(middle, false); });
     EXPECT_GT(norm(one.front() - one.back()), 0.0);
     EXPECT_TRUE(placesAfter(middle, true) == one);
@@ -105,6 +120,10 @@ TEST(SolidGradient, StepsImplicitlyInMacroSteps) {
 TEST(SolidGradient, IsLoadedInStepsAndAlongItsPath) {
   const std::string loads = R"(, "supports": [{"on": "y-"}], "loads": [{"on": "y+", "type": "traction",
       "traction": [0, "-20 kPa", 0]}])";
+  Built ofPoints = loaded(staticScene(pointsOf(gradient + R"(, "loads": [{"on": "y+", "type": "traction",
+      "traction": ["5 kPa", "-20 kPa", 0]}], "planes": [{"on": "x+", "point": [1, 0, 0], "normal": [-1, 0, 0]}])"),
+                                      R"({"do": "statics", "load_steps": 3})"));
+  EXPECT_GT(channel(ofPoints, "soil: gradient of F"), 0.0);
   for (const char* const stage :
        {R"({"do": "statics", "load_steps": 3})", R"({"do": "statics", "load_steps": 3, "control": "arc-length"})"}) {
     Built built = started(staticScene(sheet(reduced + loads), stage));
@@ -125,6 +144,7 @@ TEST(SolidGradient, CountsAsElasticOnTheWayToRest) {
 TEST(SolidGradient, SetsTheStepAndIsNamedForIt) {
   const std::string stiff = R"("formulation": "reduced", "gradient": {"modulus": 1e12}, )";
   expectParts(refusalOfRun(sheet(stiff + pressed)), {"gradient of F", "soil"});
+  expectParts(refusalOfRun(pointsOf(R"("gradient": {"modulus": 1e12}, )" + plate)), {"gradient of F", "soil"});
 }
 
 TEST(SolidGradient, NarrowBandsAndElementsThatLockAreTold) {
@@ -132,6 +152,7 @@ TEST(SolidGradient, NarrowBandsAndElementsThatLockAreTold) {
       warningsOf(sheet(R"("formulation": "reduced", "gradient": {"modulus": "10 kN"}, )" + pressed)).find("bands"),
       std::string::npos);
   expectParts(warningsOf(sheet(reduced + ", " + pressed)), {"gets bands about", "of its elements", "gradient modulus"});
+  expectParts(warningsOf(pointsOf(gradient + ", " + plate)), {"gets bands about", "cells of its grid"});
   expectParts(warningsOf(sheet(gradient + ", " + pressed, "quad4")), {"too stiff in bands", "quad8"});
 }
 

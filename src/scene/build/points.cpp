@@ -12,6 +12,7 @@
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/io/csv_table.hpp"
 #include "dovetail/mpm/fill.hpp"
+#include "dovetail/mpm/pair_gradient.hpp"
 #include "parts.hpp"
 
 namespace dovetail::scene {
@@ -155,7 +156,6 @@ void requireNoElements(const Solid& solid, const Scene& scene) {
   };
   for (const Given& one :
        {Given{solid.formulation != "standard", "a formulation", "leave it out"},
-        Given{solid.gradient.has_value(), "a gradient", "leave it out, or take a mesh"},
         Given{solid.massFraction.has_value() && *solid.massFraction > 0.0, "a consistent mass", "leave it out"},
         Given{solid.state.has_value(), "a state", "resume the run in place of starting from it"},
         Given{!solid.regions.empty(), "regions", "give each material a solid, or take a mesh"},
@@ -255,6 +255,7 @@ std::unique_ptr<fem::Model> makePoints(const Solid& solid, const Scene& scene, B
   else if (solid.gravity && norm(scene.gravity) > 0.0)
     model->add(mpm::gravity(body, scene.gravity));
   if (solid.massDamping > 0.0) model->add(fem::massDamping(solid.massDamping));
+  if (solid.gradient) model->add(mpm::pairGradient(body, points, {.modulus = solid.gradient->modulus}));
   addOnFaces(*model, body, options.grid, solid, scene, built);
   built.meshes.emplace_back().X = points.x;
   built.supports.emplace_back();

@@ -227,8 +227,8 @@ void describe(Fields& f, Solid& v) {
   f.list({"regions", "elements of other materials"}, v.regions);
   f.word({"formulation", "of the elements"}, v.formulation, formulations);
   f.object({"gradient",
-            "energy of the gradient of F, which gives bands of softening materials a width; for quad4, reduced quad8 "
-            "and hex8"},
+            "energy of the gradient of F, which gives bands of softening materials a width; for quad4, reduced "
+            "quad8, hex8 and material points"},
            v.gradient);
   f.flag({"gravity", "whether gravity acts on it"}, v.gravity);
   f.choice({"stepping", "time integration"}, v.implicitSteps, steppings);

@@ -90,16 +90,18 @@ void lookAtBands(const Built& built, const Scene& scene, std::size_t number, Lin
   const std::vector<const SolidMaterial*> materials = materialsOf(solid);
   const bool ofCells = std::ranges::any_of(materials, [](const SolidMaterial* one) { return hasCells(*one); });
   if (!solid.gradient && !ofCells) return;
+  const auto* const onGrid = std::get_if<PointMesh>(&solid.mesh);
   double fewest = std::numeric_limits<double>::infinity(), width = 0.0, length = 0.0;
   for (std::size_t m = 0; solid.gradient && m < materials.size(); ++m) {
-    const double own = widthOf(*materials[m], solid.gradient->modulus), h = elementLength(mesh, material, m);
+    const double own = widthOf(*materials[m], solid.gradient->modulus);
+    const double h = onGrid ? onGrid->grid.spacing : elementLength(mesh, material, m);
     if (!(h > 0.0 && own / h < fewest)) continue;
     fewest = own / h, width = own, length = h;
   }
   if (fewest < elementsPerBand)
     lines.push_back(quoted(solid.name) + " gets bands about " + rounded(width) + " m wide, " + rounded(fewest) +
-                    " of its elements: take elements of " + rounded(width / elementsPerBand) +
-                    " m or less, or a gradient modulus of " +
+                    (onGrid ? " cells of its grid: take cells of " : " of its elements: take elements of ") +
+                    rounded(width / elementsPerBand) + " m or less, or a gradient modulus of " +
                     rounded(solid.gradient->modulus * std::pow(elementsPerBand * length / width, 2)) + " N.");
   if (solid.gradient && !solid.ties.empty())
     lines.push_back(

@@ -50,6 +50,9 @@ public:
   /// At the present state of the nodes.
   virtual std::vector<Vec3> places(const fem::Nodes& nodes) const = 0;
   virtual const GridRows& rows() const = 0;
+  virtual const GridOptions& grid() const = 0;
+  /// F of the points when the grid was laid out, [9 point + 3 i + J].
+  virtual const std::vector<double>& laidDeformation() const = 0;
   virtual const std::vector<double>& masses() const = 0;  ///< of points, kg
   /// F, P, energies and dissipation of the points as they were asked last.
   virtual const fem::FieldAnswers& answers() const = 0;
