@@ -116,11 +116,13 @@ double CoupledRun::Impl::rateOf(const void* model) const {
 /// One per particle; empty if none is part of a solid.
 std::vector<dem::SolidPart> CoupledRun::Impl::solidParts() const {
   std::vector<dem::SolidPart> parts;
+  int solid = -1;
   for (const auto* connector : grains.terms.all<Connector>()) {
+    ++solid;
     if (!connector->placed().empty()) parts.resize(grains.particles.size());
     for (const std::int64_t id : connector->placed())
       if (const int i = dem::find(grains.particles, id); i >= 0)
-        parts[static_cast<std::size_t>(i)] = {true, rateOf(connector->side().model)};
+        parts[static_cast<std::size_t>(i)] = {solid, rateOf(connector->side().model)};
   }
   return parts;
 }

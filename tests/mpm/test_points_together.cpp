@@ -36,7 +36,7 @@ Body addBlock(CoupledRun& run, const Vec3& low, const Vec3& v, const Vec3& g,
       {.grid = {.spacing = 2.0 * spacing, .plane = false, .origin = low, .borders = borders}, .transfer = transfer})};
   auto model = std::make_unique<fem::Model>(makeModel(body.points));
   model->add(gravity(body.points, g));
-  body.side = &run.addSolid(std::move(model), {.name = "points"});
+  body.side = &run.addSolid(std::move(model), {.name = run.solids() == 0 ? "points" : "more points"});
   return body;
 }
 
@@ -71,6 +71,28 @@ TEST(PointsTogether, MeetSkinsOfElementsAndGrains) {
     run.advance(1000);
     EXPECT_GT(body.points->renewals(), 2);
     expectBalance(run, 2e-3 * moved);
+  }
+}
+
+/// Two bodies fly at each other: the limit of the step is known before they touch, and points of one body, which never
+/// meet, set none.
+TEST(PointsTogether, KnowTheStepBeforeTwoBodiesMeet) {
+  for (const bool both : {false, true}) {
+    CoupledRun run;
+    run.grains.laws = dem::makeContactLaws(dem::ElasticLaw{{20.0 * stiff}});
+    const Body left = addBlock(run, {}, {2.0, 0.0, 0.0}, {});
+    const Body right = addBlock(run, {0.64, 0.0, 0.0}, {-2.0, 0.0, 0.0}, {});
+    addSpheres(run.grains, *left.side, left.points, {.radius = 0.5 * spacing});
+    if (both) addSpheres(run.grains, *right.side, right.points, {.radius = 0.5 * spacing});
+    run.start(1e-4);
+    const StepLimit before = run.criticalStep();
+    double least = before.dt;
+    for (int k = 0; k < 40; ++k) {
+      run.advance(15);
+      least = std::min(least, run.criticalStep().dt);
+    }
+    EXPECT_LE(before.dt, 1.6 * least);
+    EXPECT_EQ(before.owner.find("an impact") != std::string::npos, both) << before.owner;
   }
 }
 

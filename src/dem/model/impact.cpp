@@ -27,13 +27,12 @@ struct Hitter {
   }
 };
 /// The two of each kind that are moved most easily.
-/// Points of solids stand apart: those of one solid never meet each other.
+/// Points of each solid stand apart: those of one solid never meet each other.
 struct Kind {
-  int material = 0;
-  bool ofSolid = false;
+  int material = 0, solid = -1;
   bool operator==(const Kind&) const = default;
   bool operator<(const Kind& other) const {
-    return std::pair(material, ofSolid) < std::pair(other.material, other.ofSolid);
+    return std::pair(material, solid) < std::pair(other.material, other.solid);
   }
 };
 using Hitters = std::map<Kind, std::array<Hitter, 2>>;
@@ -104,9 +103,9 @@ Crowd crowdOf(const Model& m, const ContactDemand& demand, const ImpactOptions& 
   for (std::size_t i = 0; i < p.size(); ++i) {
     const bool isFree = i >= demand.stiffness.size() || demand.stiffness[i] == 0.0;
     crowd.add({p.x[i], p.x[i]}, p.v[i], isFree);
-    const Kind kind{p.material.empty() ? 0 : int{p.material[i]}, p.isOfSolid(i)};
-    const Hitter hitter{inverse[i], p.radius[i], static_cast<int>(i),
-                        settings.parts.empty() ? SolidPart{} : settings.parts[i]};
+    const SolidPart part = settings.parts.empty() ? SolidPart{p.isOfSolid(i) ? 0 : -1} : settings.parts[i];
+    const Kind kind{p.material.empty() ? 0 : int{p.material[i]}, part.solid};
+    const Hitter hitter{inverse[i], p.radius[i], static_cast<int>(i), part};
     offer(crowd.all, kind, hitter);
     if (isFree) offer(crowd.free, kind, hitter);
   }
@@ -143,8 +142,8 @@ public:
   double limitAt(double overlap, const Hitter& a, const Hitter& b, int macroStep) const {
     ContactDemand demand = demandAt(overlap);
     demand.macroStep = macroStep;
-    if (a.part.ofSolid) addOwnForces(demand, 0, pair_.mass[0], a.part.ownRate);
-    if (b.part.ofSolid) addOwnForces(demand, 1, pair_.mass[1], b.part.ownRate);
+    if (a.part.solid >= 0) addOwnForces(demand, 0, pair_.mass[0], a.part.ownRate);
+    if (b.part.solid >= 0) addOwnForces(demand, 1, pair_.mass[1], b.part.ownRate);
     return limitOf(demand);
   }
 
@@ -217,7 +216,7 @@ void meetEachOther(const Model& m, const Crowd& crowd, int macroStep, ImpactLimi
       fallen(norm(crowd.velocities.upper - crowd.velocities.lower), heightOf(crowd.places, m.gravity), g);
   for (const auto& [kind, hitters] : crowd.free)
     for (const auto& [other, candidates] : crowd.all) {
-      if (kind.ofSolid && other.ofSolid) continue;
+      if (kind.solid >= 0 && kind.solid == other.solid) continue;
       const Hitter& first = hitters[0];
       const bool same = kind == other && first.number == candidates[0].number && first.number >= 0;
       const Hitter& second = candidates[same ? 1 : 0];
@@ -251,7 +250,7 @@ void meetPartner(const Model& m, const Crowd& crowd, const ImpactPartner& partne
       if (settings.ownRate) demand.sides.front().ownRate = settings.ownRate(partner.of);
     }
     demand.macroStep = settings.macroStep;
-    if (hitter.part.ofSolid && hitter.inverseMass > 0.0)
+    if (hitter.part.solid >= 0 && hitter.inverseMass > 0.0)
       addOwnForces(demand, 0, 1.0 / hitter.inverseMass, hitter.part.ownRate);
     note(limit, meeting.limitOf(demand), depth / hitter.radius,
          "an impact of " + hitter.name(m.particles) + " with " + partner.name);

@@ -32,7 +32,7 @@ struct ImpactLimit : StepLimit {
 
 /// Of a particle that stands for a part of a solid.
 struct SolidPart {
-  bool ofSolid = false;
+  int solid = -1;        ///< its number; parts of one solid never meet; −1: none
   double ownRate = 0.0;  ///< ω² of the solid's own forces, 1/s²; 0: implicit steps, it moves once a macro step
 };
 
