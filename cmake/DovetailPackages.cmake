@@ -1,5 +1,6 @@
 # Debian packages by `cpack -G DEB`: `dovetail` with the program, scenes and documents, `libdovetail-dev` with headers,
-# static libraries and the files for find_package. scripts/package makes both. A build with shared libraries makes none.
+# static libraries and the files for find_package, and with DOVETAIL_PYTHON `python3-dovetail` with the Python module.
+# scripts/package makes them. A build with shared libraries makes none.
 if(BUILD_SHARED_LIBS)
   return()
 endif()
@@ -45,6 +46,22 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "g++, cmake, ${wanted}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS dovetail)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, libraries and the files by which find_package(dovetail) finds
 them. Recommended packages are needed by single components alone.")
+
+if(DOVETAIL_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-dovetail)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS  # the module is made for one minor version
+      "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "libopenblas0-serial, python3-matplotlib")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS dovetail)
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION "The Python module dovetail runs scenes of particles and solids: states as
+numpy arrays, forces of one's own as functions.")
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/python3-dovetail"
+          RENAME copyright COMPONENT python)
+endif()
 
 # Debian wants the licence under this name in every package.
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/doc/dovetail"

@@ -5,6 +5,7 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)"
 
 build_packages=(g++ cmake ninja-build git libeigen3-dev libspectra-dev libsuitesparse-dev libvtk9-dev libhdf5-dev libgtest-dev
                 nlohmann-json3-dev libfcl-dev libcgal-dev libmuparser-dev libceres-dev zlib1g-dev libopenblas0-serial)
+python_packages=(python3-dev pybind11-dev python3-numpy)
 
 say() { printf '\n== %s\n' "$*"; }
 fail() {

@@ -10,23 +10,52 @@ Quantities are SI. What a scene cannot say is refused with a ValueError (InputEr
 that breaks down raises a RuntimeError (NumericalError).
 """
 
+from __future__ import annotations
+
 import json
+import operator
 import os
 import sys
+import typing
 
-from . import _core
+try:
+    from numpy.typing import ArrayLike, NDArray
+
+    from . import _core
+except ImportError as error:
+    raise ImportError(f"{error}: dovetail was built for another Python than {sys.executable} {sys.version.split()[0]}, or "
+                      "this one has no numpy; Debian's is /usr/bin/python3") from error
 from ._core import InputError, NumericalError, schema, set_threads, threads
 
 __all__ = ["InputError", "NumericalError", "Run", "check", "read_scene", "resume", "run", "schema", "set_threads",
            "threads"]
 
+_Path = typing.Union[str, "os.PathLike[str]"]
+_Scene = typing.Union[_Path, typing.Dict[str, typing.Any], _core.Scene]
+_Array = NDArray[typing.Any]
+_Force = typing.Callable[[float, _Array, _Array], ArrayLike]
 
-def _text(value):
-    return value if isinstance(value, str) else json.dumps(value)
+
+def _plain(value: typing.Any) -> typing.Any:
+    if hasattr(value, "tolist"):  # of numpy
+        return value.tolist()
+    raise InputError(f"a scene cannot say {value!r} of {type(value)}: write numbers, text, lists, arrays or dicts")
 
 
-def read_scene(scene, folder=None, **settings):
-    """The scene of a file, or of a dict that says the same; `folder`: that a dict's names of files are relative to.
+def _json(value: typing.Any) -> str:
+    try:
+        return json.dumps(value, default=_plain, allow_nan=False)
+    except ValueError as error:
+        raise error if isinstance(error, InputError) else InputError("a number of the scene is not finite: give one that is")
+
+
+def _text(value: typing.Any) -> str:
+    return value if isinstance(value, str) else _json(value)
+
+
+def read_scene(scene: _Scene, folder: _Path | None = None, **settings: typing.Any) -> _core.Scene:
+    """The scene of a file, or of a dict that says the same, arrays in place of lists as well; `folder`: that a dict's
+    names of files are relative to.
 
     `settings` are parameters of "let" by their names; other keys by their paths: `**{"steps.dt": "1e-5 s"}`.
     """
@@ -36,34 +65,36 @@ def read_scene(scene, folder=None, **settings):
             raise InputError("this scene has been read: give folder and settings where it is")
         return scene
     if isinstance(scene, dict):
-        return _core.Scene(json.dumps(scene), "scene", folder or os.getcwd(), changes)
+        return _core.Scene(_json(scene), "scene", folder or os.getcwd(), changes)
     return _core.read_scene(os.fspath(scene), changes)
 
 
 class Run(_core.Run):
     """A scene, built and started, that goes on when it is told to: arrays, ledger and own forces between the steps.
 
-    Stages, outputs and their files are those of `dovetail.run`; here time simply passes.
+    Stages, outputs and their files are those of `dovetail.run`; here time simply passes, and a dict needs no stages.
     """
 
-    def __init__(self, scene, folder=None, **settings):
+    def __init__(self, scene: _Scene, folder: _Path | None = None, **settings: typing.Any) -> None:
+        if isinstance(scene, dict) and not {"stages", "include"} & set(scene):
+            scene = {**scene, "stages": [{"do": "run", "time": 1}]}
         super().__init__(read_scene(scene, folder, **settings))
 
     @property
-    def grains(self):
+    def grains(self) -> _core.Grains:
         """Grains as arrays, in the order of their ids."""
         return _core.Grains(self)
 
     @property
-    def solids(self):
+    def solids(self) -> dict[str, _core.Solid]:
         """Solids by their names."""
         return {name: _core.Solid(self, k) for k, name in enumerate(self._solids)}
 
-    def advance(self, steps=1):
+    def advance(self, steps: int = 1) -> None:
         """So many macro steps. Ctrl-C ends between two of them, and the run can go on."""
-        self._advance(steps)
+        self._advance(operator.index(steps))
 
-    def steps(self, steps, every=1):
+    def steps(self, steps: int, every: int = 1) -> typing.Iterator[int]:
         """Goes on by `every` macro steps each time round, `steps` in all; gives those that have been made."""
         if every < 1:
             raise InputError(f"every is {every}: give 1 or more")
@@ -74,7 +105,7 @@ class Run(_core.Run):
             made += now
             yield made
 
-    def force(self, function=None, name=None):
+    def force(self, function: _Force | None = None, name: str | None = None) -> typing.Any:
         """Adds forces on the grains: `function(t, x, v)` gives N, (N, 3), in the order of ids; its work is booked.
 
             @run.force
@@ -83,16 +114,18 @@ class Run(_core.Run):
         """
         if function is None:
             return lambda later: self.force(later, name)
-        self._add_force(name or getattr(function, "__name__", "force"), function)
+        if not callable(function):
+            raise InputError(f"the force is {function!r}: give a function of t, x, v")
+        self._add_force(name or str(getattr(function, "__name__", "force")), function)
         return function
 
 
-def _write(text):
+def _write(text: str) -> None:
     sys.stdout.write(text)
     sys.stdout.flush()
 
 
-def _folder(scene, out):
+def _folder(scene: _Scene, out: _Path | None) -> str:
     if out is not None:
         return os.fspath(out)
     if isinstance(scene, (dict, _core.Scene)):
@@ -100,7 +133,8 @@ def _folder(scene, out):
     return os.path.splitext(os.path.basename(os.fspath(scene)))[0] + "-out"
 
 
-def run(scene, out=None, replace=False, quiet=False, folder=None, **settings):
+def run(scene: _Scene, out: _Path | None = None, replace: bool = False, quiet: bool = False,
+        folder: _Path | None = None, **settings: typing.Any) -> str:
     """Runs all stages of a scene into the folder `out`, as `dovetail run` does; returns the folder.
 
     Ctrl-C ends with a checkpoint, from which `resume` goes on.
@@ -110,11 +144,11 @@ def run(scene, out=None, replace=False, quiet=False, folder=None, **settings):
     return where
 
 
-def resume(out, until=None, quiet=False):
+def resume(out: _Path, until: float | None = None, quiet: bool = False) -> None:
     """Goes on from the last checkpoint in a folder; `until`: a new end of the last stage, s."""
     _core.resume_run(os.fspath(out), until, (lambda text: None) if quiet else _write)
 
 
-def check(scene, folder=None, **settings):
+def check(scene: _Scene, folder: _Path | None = None, **settings: typing.Any) -> str:
     """Sizes, limits of the step, memory and time of a scene, as text."""
     return _core.check_scene(read_scene(scene, folder, **settings))

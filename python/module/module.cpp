@@ -31,9 +31,9 @@ PYBIND11_MODULE(_core, m) {
   m.def("set_threads", &setThreads, py::arg("count"), "Threads of all runs from now on; digits do not depend on them.");
   m.def("threads", &threads, "Threads of all runs.");
   bindScenes(m);
+  bindRun(m);  // before what takes one, whose docstrings name it
   bindGrains(m);
   bindSolids(m);
-  bindRun(m);
 }
 
 }  // namespace dovetail::python

@@ -89,7 +89,7 @@ void bindRun(py::module_& m) {
       .def_property_readonly("limits", &limitsOf, "Limits of the step now: (s, what sets it).")
       .def_property_readonly(
           "notes", [](SceneRun& r) { return r.built().notes; }, "Decisions that the scene leaves open.")
-      .def_property_readonly("scene", &SceneRun::scene, py::return_value_policy::copy)
+      .def_property_readonly("scene", &SceneRun::scene, py::return_value_policy::copy, "What the run was built from.")
       .def_property_readonly("_solids",
                              [](SceneRun& r) {
                                std::vector<std::string> names;

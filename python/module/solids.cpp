@@ -30,7 +30,8 @@ void bindSolids(py::module_& m) {
              return Solid{run, number};
            }),
            py::keep_alive<1, 2>())
-      .def_property_readonly("name", [](const Solid& s) { return s.side().name; })
+      .def_property_readonly(
+          "name", [](const Solid& s) { return s.side().name; }, "That of the scene.")
       .def(
           "__len__", [](const Solid& s) { return s.nodes().X.size(); }, "Number of nodes.")
       .def_property_readonly(

@@ -4,16 +4,14 @@ import pathlib
 import re
 import sys
 
+from public_classes import classes_of
+
 root = pathlib.Path(sys.argv[1])
 page = (root / "docs/capabilities.md").read_text()
 keys = set(re.findall(r"^\| `([\w-]+)`", (root / "docs/scene-keys.md").read_text(), re.MULTILINE))
 faults = []
 
-definition = re.compile(r"^(?:struct|class) (?:alignas\([^)]*\) )?(\w+)(?: final)?(?: : [^;{]*)?\s*\{", re.MULTILINE)
-classes = {}
-for module in ("dem", "fem"):
-    for header in sorted((root / "src" / module / "include").rglob("*.hpp")):
-        classes.update((name, header) for name in definition.findall(header.read_text()))
+classes = {**classes_of(root, "dem"), **classes_of(root, "fem")}
 named = set(re.findall(r"`(\w+)`", page))
 faults += [f"{header.relative_to(root)}: {name} is not on the page" for name, header in classes.items() if name not in named]
 
