@@ -169,6 +169,8 @@ def field(name, value, classes):
 
 def is_public(name, value):
     hidden = {"__module__", "__doc__", "__new__", "__dict__", "__weakref__", "__entries", "__hash__"}
+    if name == "__init__" and not signatures(value.__doc__)[0]:
+        return False  # made by functions of C++ alone
     return name not in hidden and not name.startswith("_pybind11") and value is not None
 
 

@@ -1,4 +1,5 @@
-"""run_document.py DOCUMENT: runs the blocks of Python of a document, one after the other, beside the shipped scenes.
+"""run_document.py DOCUMENT: runs the blocks of Python after <!-- tested -->, one after the other, beside the shipped
+scenes.
 
 77 if it imports a package that is not here.
 """
@@ -10,7 +11,7 @@ import tempfile
 
 os.environ["MPLBACKEND"] = "Agg"
 document = pathlib.Path(sys.argv[1])
-blocks = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+blocks = re.compile(r"^<!-- tested -->\n```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 text, names = document.read_text(), {}
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
@@ -26,4 +27,4 @@ with tempfile.TemporaryDirectory() as folder:
         sys.exit(77)
     finally:
         os.chdir(document.parent)
-assert names, f"{document} has no block of Python"
+assert names, f"{document} has no block of Python to test"
