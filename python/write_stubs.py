@@ -37,7 +37,7 @@ TYPES = {
     "dict": ("dict[str, typing.Any]",) * 2,
     "list": ("list[typing.Any]", "collections.abc.Sequence[typing.Any]"),
     "tuple": ("tuple[typing.Any, ...]",) * 2,
-    "array": ("numpy.typing.NDArray[typing.Any]", "numpy.typing.ArrayLike"),
+    "numpy.ndarray": ("numpy.typing.NDArray[typing.Any]", "numpy.typing.ArrayLike"),
     "os.PathLike": ("str", "str | os.PathLike[str]"),
     "Iterator": ("collections.abc.Iterator[typing.Any]",) * 2,
 }
@@ -74,7 +74,7 @@ def python_type(text, taken, classes):
     if text in PLAIN:
         return text
     if text.startswith("numpy.ndarray["):
-        number = split(text[len("numpy.ndarray["):-1])[0]
+        number = split(text[len("numpy.ndarray["):-1])[0].replace("bool", "numpy.bool_")
         return "numpy.typing.ArrayLike" if taken else f"{ARRAY}[{number}]"
     name, bracket, inside = text.partition("[")
     if bracket:
