@@ -15,6 +15,7 @@ struct Case {
 bool bands(bool quick);
 bool bar(bool quick);
 bool block(bool quick);
+bool cantilever(bool quick);
 bool cells(bool quick);
 bool column(bool quick);
 bool discs(bool quick);

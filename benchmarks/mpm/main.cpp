@@ -15,6 +15,7 @@ using namespace dovetail::benchmark;
 const std::vector<Case> cases{
     {"bar", "Period of a bar", bar},
     {"column", "A column at rest under its weight", column},
+    {"cantilever", "A soft beam falls under its weight", cantilever},
     {"discs", "Two discs collide", discs},
     {"block", "A block under its weight", block},
     {"rebound", "A block hits a wall", rebound},
