@@ -49,9 +49,14 @@ std::vector<Vec3> Points::places(const Nodes& nodes) const {
 
 std::size_t Points::memory() const {
   const auto bytes = [](const auto&... all) { return ((all.capacity() * sizeof(all[0])) + ...); };
+  std::size_t marked = 0;
+  for (const auto& [anchors, markers] : marked_)
+    marked += bytes(anchors.first, anchors.point, markers.X, markers.images, markers.map.offsets, markers.map.column,
+                    markers.map.weight);
   return answers_.memory() + bytes(carried_.x, carried_.v, carried_.moment, carried_.mass, volume_, F0_, v0_) +
          bytes(rows_.cell, rows_.node, rows_.flip, rows_.reached, rows_.weight, rows_.slope, rows_.firstOfCell,
-               rows_.pointOfCell, rows_.firstOfNode, rows_.entryOfNode, rows_.X, rows_.fixed);
+               rows_.pointOfCell, rows_.firstOfNode, rows_.entryOfNode, rows_.X, rows_.fixed) +
+         marked;
 }
 
 void Points::findDeformation(std::span<const Vec3> u) {

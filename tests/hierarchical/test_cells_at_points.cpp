@@ -88,16 +88,28 @@ TEST_P(CellsAtPoints, RestWhereTheirStressIsHeld) {
 }
 INSTANTIATE_TEST_SUITE_P(All, CellsAtPoints, testing::Values(mpm::Transfer::flip, mpm::Transfer::apic));
 
+/// −Σ f ⊗ x
+Eigen::Matrix2d virialOf(const fem::Nodes& nodes, const std::vector<Vec3>& f) {
+  Eigen::Matrix2d virial = Eigen::Matrix2d::Zero();
+  for (std::size_t n = 0; n < f.size(); ++n) {
+    const Vec3 x = nodes.X[n] + nodes.u[n];
+    virial -= Eigen::Vector2d(f[n].x, f[n].y) * Eigen::RowVector2d(x.x, x.y);
+  }
+  return virial;
+}
+
 /// Four points in one cell of the grid, whose nodes are driven (Liang & Zhao 2019, Sec. 3.1): forces of the nodes are
 /// those of the stress of one cell alone, however often the grid is renewed. F stays the same to round-off, which grows
-/// in cells with friction: to 1e-12 of the stress at 1 % of strain, 1e-9 at 3 % and 1e-4 at 6 %.
+/// in cells with friction: to 1e-12 of the stress at 1 % of strain, 1e-9 at 3 % and 1e-4 at 6 %. That is chaos: a cell
+/// whose path is moved by 1e-12 in its first step, and never again, is left behind as fast.
 TEST(SingleElementOfCells, HasTheStressOfTheCellAlone) {
   const mpm::GridOptions grid{.spacing = side, .plane = true};
   const mpm::MaterialPoints points = mpm::fillBox(grid, {{}, {side, side, side}}, 2, {});
   ASSERT_EQ(points.x.size(), 4U);
   const auto solid = mpm::makePoints(points, cellField(oneCell(), DynamicCells{}), {.grid = grid});
   fem::Model model = mpm::makeModel(solid);
-  rve::Rve cell = oneCell().front();
+  rve::Rve cell = oneCell().front(), moved = cell;
+  double apart = 0.0;  // of the two, over the stress
   const Eigen::Matrix3d G = rve::plane(1.0006, 2e-4, 0.0, 0.9992);
   Eigen::Matrix3d F = Eigen::Matrix3d::Identity(), onGrid = F;
   for (int k = 1; k <= 100; ++k) {
@@ -110,13 +122,12 @@ TEST(SingleElementOfCells, HasTheStressOfTheCellAlone) {
     solid->addForces(model.nodes, {k * dt, dt}, f);
     solid->commit(model.nodes, {k * dt, dt});
     stepTo(cell, F, {});
-    Eigen::Matrix2d virial = Eigen::Matrix2d::Zero();
-    for (std::size_t n = 0; n < f.size(); ++n) {
-      const Vec3 x = model.nodes.X[n] + model.nodes.u[n];
-      virial -= Eigen::Vector2d(f[n].x, f[n].y) * Eigen::RowVector2d(x.x, x.y);
-    }
-    const Eigen::Matrix2d alone = side * side * side * (rve::nominalStress(cell) * F.transpose()).topLeftCorner<2, 2>();
-    ASSERT_LT((virial - alone).norm(), (k <= 20 ? 1e-10 : 1e-3) * alone.norm()) << k;
+    stepTo(moved, k == 1 ? rve::plane(1e-12 + F(0, 0), F(0, 1), F(1, 0), F(1, 1)) : F, {});
+    const Eigen::Matrix3d P = rve::nominalStress(cell);
+    apart = std::max(apart, (rve::nominalStress(moved) - P).norm() / P.norm());
+    const Eigen::Matrix2d alone = side * side * side * (P * F.transpose()).topLeftCorner<2, 2>();
+    const double most = k <= 20 ? 1e-10 : std::min(1e-3, 30.0 * apart);
+    ASSERT_LT((virialOf(model.nodes, f) - alone).norm(), most * alone.norm()) << k;
     const std::vector<double> ofPoints(solid->answers().F().begin(), solid->answers().F().end());
     for (std::size_t p = 0; p < 4; ++p) ASSERT_LT((matrixAt(ofPoints, p) - F).norm(), 1e-14) << k;
     if (k % 4 != 0) continue;

@@ -64,6 +64,17 @@ std::vector<Vec3> anyValues(std::size_t count, double size, bool plane, Random& 
   return values;
 }
 
+TEST(Markers, AreInTheMemoryOfTheirPoints) {
+  Random random;
+  const Body body = bodyOf({}, random);
+  const std::size_t before = body.points->memory();
+  const Markers& more = body.points->markers(body.points->addMarkers(body.faces.X));
+  const std::size_t arrays = sizeof(Vec3) * more.X.size() + sizeof(NodeImage) * more.images.size() +
+                             sizeof(int) * (more.map.offsets.size() + more.map.column.size()) +
+                             sizeof(double) * more.map.weight.size();
+  EXPECT_GE(body.points->memory(), before + arrays);
+}
+
 /// Linear fields of the nodes, here those that borders let be.
 TEST(Markers, ReproduceLinearFields) {
   for (const Case& c : allCases()) {
