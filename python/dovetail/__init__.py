@@ -25,10 +25,16 @@ try:
 except ImportError as error:
     raise ImportError(f"{error}: dovetail was built for another Python than {sys.executable} {sys.version.split()[0]}, or "
                       "this one has no numpy; Debian's is /usr/bin/python3") from error
-from ._core import InputError, NumericalError, schema, set_threads, threads
+from ._calibration import Fit, calibrate
+from ._cells import make_cells
+from ._core import InputError, NumericalError, Rve, read_cells, schema, set_threads, threads, write_cells
+from ._looking import Looks, Picture, fields, picture, series
+from ._progress import Progress, in_terminal
+from ._studies import Rows, study
 
-__all__ = ["InputError", "NumericalError", "Run", "check", "read_scene", "resume", "run", "schema", "set_threads",
-           "threads"]
+__all__ = ["Fit", "InputError", "NumericalError", "Picture", "Rows", "Run", "Rve", "calibrate", "check", "fields",
+           "make_cells", "picture", "read_cells", "read_scene", "resume", "run", "schema", "series", "set_threads",
+           "study", "threads", "write_cells"]
 
 _Path = typing.Union[str, "os.PathLike[str]"]
 _Scene = typing.Union[_Path, typing.Dict[str, typing.Any], _core.Scene]
@@ -69,7 +75,7 @@ def read_scene(scene: _Scene, folder: _Path | None = None, **settings: typing.An
     return _core.read_scene(os.fspath(scene), changes)
 
 
-class Run(_core.Run):
+class Run(Looks, _core.Run):
     """A scene, built and started, that goes on when it is told to: arrays, ledger and own forces between the steps.
 
     Stages, outputs and their files are those of `dovetail.run`; here time simply passes, and a dict needs no stages.
@@ -94,16 +100,24 @@ class Run(_core.Run):
         """So many macro steps. Ctrl-C ends between two of them, and the run can go on."""
         self._advance(operator.index(steps))
 
-    def steps(self, steps: int, every: int = 1) -> typing.Iterator[int]:
-        """Goes on by `every` macro steps each time round, `steps` in all; gives those that have been made."""
+    def steps(self, steps: int, every: int = 1, progress: bool = False) -> typing.Iterator[int]:
+        """Goes on by `every` macro steps each time round, `steps` in all; gives those that have been made. `progress`:
+        a line in terminals and notebooks says how far it is."""
         if every < 1:
             raise InputError(f"every is {every}: give 1 or more")
+        shown = Progress("steps", steps) if progress else None
         made = 0
-        while made < steps:
-            now = min(every, steps - made)
-            self._advance(now)
-            made += now
-            yield made
+        try:
+            while made < steps:
+                now = min(every, steps - made)
+                self._advance(now)
+                made += now
+                if shown:
+                    shown.update(made, f"t = {self.time:.6g} s")
+                yield made
+        finally:
+            if shown:
+                shown.finish()
 
     def force(self, function: _Force | None = None, name: str | None = None) -> typing.Any:
         """Adds forces on the grains: `function(t, x, v)` gives N, (N, 3), in the order of ids; its work is booked.
@@ -140,13 +154,14 @@ def run(scene: _Scene, out: _Path | None = None, replace: bool = False, quiet: b
     Ctrl-C ends with a checkpoint, from which `resume` goes on.
     """
     where = _folder(scene, out)
-    _core.run_scene(read_scene(scene, folder, **settings), where, replace, (lambda text: None) if quiet else _write)
+    _core.run_scene(read_scene(scene, folder, **settings), where, replace, (lambda text: None) if quiet else _write,
+                    not quiet and in_terminal())
     return where
 
 
 def resume(out: _Path, until: float | None = None, quiet: bool = False) -> None:
     """Goes on from the last checkpoint in a folder; `until`: a new end of the last stage, s."""
-    _core.resume_run(os.fspath(out), until, (lambda text: None) if quiet else _write)
+    _core.resume_run(os.fspath(out), until, (lambda text: None) if quiet else _write, not quiet and in_terminal())
 
 
 def check(scene: _Scene, folder: _Path | None = None, **settings: typing.Any) -> str:

@@ -34,6 +34,10 @@ PYBIND11_MODULE(_core, m) {
   bindRun(m);  // before what takes one, whose docstrings name it
   bindGrains(m);
   bindSolids(m);
+  bindLooking(m);
+  bindStudies(m);
+  bindCalibration(m);
+  bindCells(m);
 }
 
 }  // namespace dovetail::python

@@ -35,6 +35,7 @@ SceneRun::SceneRun(scene::Scene scene) : scene_(std::move(scene)), built_(scene:
     throw InputError("the first stage changes something, and steps make no stages", scene_.stages.front().where,
                      "write what it changes where the scene describes it, or run the whole scene");
   scene::start(built_, scene_);
+  row_ = std::make_unique<scene::SeriesRow>(built_, scene_);
 }
 
 scene::Built& SceneRun::built() {

@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "arrays.hpp"
 #include "dovetail/scene/build.hpp"
+#include "dovetail/scene/series_row.hpp"
 
 namespace dovetail::python {
 
@@ -37,12 +39,15 @@ public:
   coupling::CoupledRun& run() { return *built().run; }
   /// Numbers of the grains by ascending id, without those that stand for points of solids.
   const std::vector<int>& grains();
+  /// Of the series, with probes that were looked up at the start.
+  const scene::SeriesRow& row() const { return *row_; }
 
 private:
   const std::vector<int>& grainsNow();
 
   scene::Scene scene_;
   scene::Built built_;
+  std::unique_ptr<scene::SeriesRow> row_;
   std::vector<int> grains_;
   std::int64_t grainsOf_ = -1;
   bool broken_ = false, steps_ = false;
@@ -52,5 +57,9 @@ void bindScenes(py::module_& m);
 void bindRun(py::module_& m);
 void bindGrains(py::module_& m);
 void bindSolids(py::module_& m);
+void bindLooking(py::module_& m);
+void bindStudies(py::module_& m);
+void bindCalibration(py::module_& m);
+void bindCells(py::module_& m);
 
 }  // namespace dovetail::python

@@ -5,9 +5,8 @@
 #include <filesystem>
 #include <ostream>
 #include <sstream>
-#include <streambuf>
 
-#include "dovetail/core/error.hpp"
+#include "callbacks.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/execute.hpp"
@@ -20,63 +19,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Passes whole lines on to a function of Python's.
-class Lines final : public std::streambuf {
-public:
-  explicit Lines(const py::function& write) : write_(write) {}
-
-private:
-  int overflow(int c) override {
-    if (c != traits_type::eof()) line_ += static_cast<char>(c);
-    if (c == '\n') sync();
-    return c;
-  }
-  std::streamsize xsputn(const char* text, std::streamsize n) override {
-    line_.append(text, static_cast<std::size_t>(n));
-    if (line_.ends_with('\n')) sync();
-    return n;
-  }
-  int sync() override {
-    if (line_.empty()) return 0;
-    const py::gil_scoped_acquire lock;
-    write_(std::exchange(line_, {}));
-    return 0;
-  }
-  const py::function& write_;
-  std::string line_;
-};
-
 scene::Scene sceneOf(const std::string& text, const std::string& name, const fs::path& folder,
                      const std::vector<std::string>& settings) {
   return scene::sceneFromText(text, name, folder, settings);
 }
 
-/// A run under way ends at Ctrl-C as the program does: with a checkpoint.
-void endAs(bool finished) {
-  if (finished || io::interruption() == 0) return;
-  PyErr_SetString(PyExc_KeyboardInterrupt, io::nameOfInterruption().c_str());
-  throw py::error_already_set();
-}
-
-void runScene(const scene::Scene& scene, const fs::path& folder, bool replace, const py::function& write) {
+void runScene(const scene::Scene& scene, const fs::path& folder, bool replace, const py::function& write,
+              bool progress) {
   if (!replace) io::requireNoRun(folder);
   const io::InterruptionGuard guard;
   Lines lines(write);
   std::ostream log(&lines);
   const bool finished = [&] {
     const py::gil_scoped_release free;
-    return scene::run(scene, {.folder = folder, .progress = false}, log);
+    return scene::run(scene, {.folder = folder, .progress = progress}, log);
   }();
   endAs(finished);
 }
 
-void resumeRun(const fs::path& folder, std::optional<double> until, const py::function& write) {
+void resumeRun(const fs::path& folder, std::optional<double> until, const py::function& write, bool progress) {
   const io::InterruptionGuard guard;
   Lines lines(write);
   std::ostream log(&lines);
   const bool finished = [&] {
     const py::gil_scoped_release free;
-    return scene::resume({.folder = folder, .progress = false, .until = until}, log);
+    return scene::resume({.folder = folder, .progress = progress, .until = until}, log);
   }();
   endAs(finished);
 }

@@ -19,6 +19,14 @@ std::string formatDuration(double seconds) {
   return text;
 }
 
+std::string progressLine(const std::string& label, double fraction, double elapsed, const std::string& note) {
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  char percent[16];
+  std::snprintf(percent, sizeof percent, "%3.0f %%", 100.0 * fraction);
+  const std::string eta = fraction > 0.0 ? formatDuration(elapsed * (1.0 - fraction) / fraction) : "?";
+  return label + "  " + percent + "  ETA " + eta + "  " + note;
+}
+
 Progress::Progress(std::string label, double total, bool enabled)
     : label_(std::move(label)),
       total_(total),
@@ -33,10 +41,9 @@ void Progress::update(double done, const std::string& note) {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
-  const double fraction = total_ > 0.0 ? std::clamp(done / total_, 0.0, 1.0) : 0.0;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string eta = fraction > 0.0 ? formatDuration(elapsed * (1.0 - fraction) / fraction) : "?";
-  std::fprintf(stderr, "\r\033[K%s  %3.0f %%  ETA %s  %s", label_.c_str(), 100.0 * fraction, eta.c_str(), note.c_str());
+  const std::string line = progressLine(label_, total_ > 0.0 ? done / total_ : 0.0, elapsed, note);
+  std::fprintf(stderr, "\r\033[K%s", line.c_str());
   std::fflush(stderr);
 }
 

@@ -88,7 +88,7 @@ private:
       if (signal != 0 && working_.empty()) return false;
       while (signal == 0 && next < rows_.size() && working_.size() < static_cast<std::size_t>(study_.workers))
         begin(next++);
-      if (!collect()) ::usleep(5000);
+      if (!collect()) study_.wait ? study_.wait() : void(::usleep(5000));
     }
     return io::interruption() == 0;
   }

@@ -60,7 +60,8 @@ def names_of_module():
     names = set(dovetail.__all__) | {name for name in classes if not name.startswith("_")}
     for name, kind in classes.items():
         if not issubclass(kind, BaseException):
-            names |= {f"{name}.{member}" for member in dir(kind) if not member.startswith("_")}
+            own = [vars(base) for base in kind.__mro__ if base.__module__ != "builtins"]
+            names |= {f"{name}.{member}" for member in set().union(*own) if not member.startswith("_")}
     return names
 
 

@@ -16,6 +16,7 @@
 #include "run_frames.hpp"
 #include "shown_fields.hpp"
 #include "shown_walls.hpp"
+#include "valid_options.hpp"
 #include "view.hpp"
 
 namespace dovetail::scene {
@@ -224,13 +225,8 @@ std::string programMark() { return "dovetail " + io::buildInfo().version + " " +
 
 }  // namespace
 
-fs::path writePicture(const fs::path& folder, const PictureOptions& options, std::ostream& log) {
-  const char* const ending = options.film ? ".gif" : ".png";
-  const fs::path file = options.file.empty() ? folder / (options.film ? "film.gif" : "picture.png") : options.file;
-  if (file.extension() != ending)
-    throw InputError(options.film ? "films are GIF files" : "pictures are PNG files", file.string(),
-                     std::string("give a name that ends in ") + ending);
-  io::requireFreeOrOurs(file);
+Picture drawPicture(const fs::path& folder, const PictureOptions& options) {
+  requireValid(options);
   Pictures pictures(folder, options);
   std::vector<std::size_t> which;
   if (options.mode && (*options.mode < 1 || *options.mode > static_cast<int>(pictures.count())))
@@ -240,16 +236,25 @@ fs::path writePicture(const fs::path& folder, const PictureOptions& options, std
   for (std::size_t k = 0; options.film && k < pictures.count(); ++k) which.push_back(k);
   pictures.prepare(which);
   if (!options.film) {
-    const picture::Image image = pictures.draw(which[0], 3);
-    io::writeFileAtomically(file, picture::pngOf(image, programMark(), pictures.caption(which[0])));
-    log << pictures.caption(which[0]) << ": " << file.string() << '\n';
-    return file;
+    const std::string caption = pictures.caption(which[0]);
+    return {picture::pngOf(pictures.draw(which[0], 3), programMark(), caption), caption};
   }
   std::vector<picture::Image> images;
   for (const std::size_t k : which) images.push_back(pictures.draw(k, 2));
   const double seconds = std::clamp(8.0 / static_cast<double>(images.size()), 0.03, 0.25);
-  io::writeFileAtomically(file, picture::gifOf(images, seconds, programMark()));
-  log << images.size() << " frames: " << file.string() << '\n';
+  return {picture::gifOf(images, seconds, programMark()), std::to_string(images.size()) + " frames"};
+}
+
+fs::path writePicture(const fs::path& folder, const PictureOptions& options, std::ostream& log) {
+  const char* const ending = options.film ? ".gif" : ".png";
+  const fs::path file = options.file.empty() ? folder / (options.film ? "film.gif" : "picture.png") : options.file;
+  if (file.extension() != ending)
+    throw InputError(options.film ? "films are GIF files" : "pictures are PNG files", file.string(),
+                     std::string("give a name that ends in ") + ending);
+  io::requireFreeOrOurs(file);
+  const Picture picture = drawPicture(folder, options);
+  io::writeFileAtomically(file, picture.bytes);
+  log << picture.caption << ": " << file.string() << '\n';
   return file;
 }
 

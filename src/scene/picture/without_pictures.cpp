@@ -4,9 +4,15 @@
 
 namespace dovetail::scene {
 
-std::filesystem::path writePicture(const std::filesystem::path&, const PictureOptions&, std::ostream&) {
+namespace {
+[[noreturn]] void refuse() {
   throw InputError("this build draws no pictures", "picture", "build with VTK and zlib (libvtk9-dev, zlib1g-dev)");
 }
+}  // namespace
+
+std::filesystem::path writePicture(const std::filesystem::path&, const PictureOptions&, std::ostream&) { refuse(); }
+Picture drawPicture(const std::filesystem::path&, const PictureOptions&) { refuse(); }
+Picture drawPicture(const Built&, const Scene&, const PictureOptions&) { refuse(); }
 ShownRun showRun(const std::filesystem::path&) { return {}; }
 
 }  // namespace dovetail::scene

@@ -137,9 +137,7 @@ void reportMemory(const Built& built, std::ostream& log) {
 std::vector<std::string> seriesColumns(const Scene& scene) {
   Built built = build(scene);
   start(built, scene);
-  SeriesFiles files;
-  files.loadSteps = hasStatics(scene);
-  return Series(built, scene, files).table().names();
+  return SeriesRow(built, scene).names();
 }
 
 void check(const Scene& scene, std::ostream& log) {
@@ -152,7 +150,7 @@ void check(const Scene& scene, std::ostream& log) {
     reportWarnings(built, scene, false, log);
     throw;
   }
-  if (plan.series > 0) const Series columns(built, scene, SeriesFiles{});
+  if (plan.series > 0) const SeriesRow columns(built, scene);
   reportParts(built, scene, log);
   reportTime(built, scene, plan, log);
   reportOutput(built, scene, plan, log);

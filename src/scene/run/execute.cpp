@@ -56,9 +56,8 @@ public:
     start(built_, scene_);
     plan_ = planOf(built_, scene_);
     if (plan_.series > 0)
-      series_ = std::make_unique<Series>(
-          built_, scene_,
-          SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series, hasStatics(scene_)});
+      series_ = std::make_unique<Series>(built_, scene_,
+                                         SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series});
     if (goesOn) takeState();
     if (plan_.frames > 0)
       frames_ = std::make_unique<Frames>(built_, scene_, settings.folder, provenance_, progress_.frames);

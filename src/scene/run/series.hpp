@@ -10,8 +10,7 @@
 
 #include "dovetail/dem/setup/streams.hpp"
 #include "dovetail/io/time_series.hpp"
-#include "dovetail/scene/build.hpp"
-#include "probes.hpp"
+#include "dovetail/scene/series_row.hpp"
 
 namespace dovetail::scene {
 
@@ -27,11 +26,10 @@ struct SeriesFiles {
   io::KeyValues provenance;
   bool hdf5 = false;
   std::int64_t every = 1;  ///< macro steps between two rows
-  bool loadSteps = false;  ///< a stage takes some
 };
 
 /// The limit of the step takes the eigenvalues of all elements: rows closer than 2000 macro steps repeat the last one
-/// found. Columns are those of the run at its start, of what grains may book later, and of probes.
+/// found.
 class Series {
 public:
   /// @throws InputError for a probe of what is not there, and where HDF5 is wanted of a build without
@@ -50,9 +48,7 @@ public:
   void close(const std::string& scene) const;
 
 private:
-  std::vector<std::string> channels_;
-  bool followsLoads_;
-  Probes probes_;
+  SeriesRow row_;
   io::TimeSeries table_;
   SeriesFiles files_;
   std::filesystem::path path_;

@@ -28,6 +28,9 @@ private:
   std::chrono::steady_clock::time_point start_, last_;
 };
 
+/// "label  42 %  ETA 12 s  note". @param fraction  done, 0 to 1 @param elapsed  s, since the start
+std::string progressLine(const std::string& label, double fraction, double elapsed, const std::string& note = {});
+
 /// "12 s", "3 min 05 s", "2 h 10 min".
 std::string formatDuration(double seconds);
 

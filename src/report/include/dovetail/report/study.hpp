@@ -35,6 +35,8 @@ struct Study {
   Json about = Json::object();     ///< goes into `<name>.json`
   int workers = 0;                 ///< processes at once; 0: one run after the other in this process
   bool quiet = false;              ///< no lines, no progress
+  /// For some milliseconds, while processes are at work; empty: sleeps.
+  std::function<void()> wait = {};
 };
 
 /// Names of the files that a study writes.

@@ -34,9 +34,23 @@ struct PictureOptions {
 /// hold, in a parallel projection with gravity downwards, with colour bars, scale bar, axes and time. Needs no display.
 /// Values of cells are averaged at the nodes. Colours of a film mean the same in all of its frames; one in a thousand
 /// values may lie beyond their ends.
-/// @return the file. @throws InputError if there is no run, no frame, no such field, or in builds without VTK and zlib
+/// @return the file. @throws InputError for options out of range, if there is no run, no frame, no such field, or in
+/// builds without VTK and zlib
 std::filesystem::path writePicture(const std::filesystem::path& folder, const PictureOptions& options,
                                    std::ostream& log);
+
+/// Bytes of a PNG or GIF file, and what it shows.
+struct Picture {
+  std::string bytes, caption;
+};
+/// The same without a file. @throws InputError as writePicture
+Picture drawPicture(const std::filesystem::path& folder, const PictureOptions& options);
+struct Built;
+struct Scene;
+/// Of a run as it is now, by a frame of its own with the contents of the scene's output, and lines that are asked for:
+/// what writePicture draws of that frame.
+/// @throws InputError as writePicture, and for films and modes, which are those of folders
+Picture drawPicture(const Built& built, const Scene& scene, const PictureOptions& options);
 
 /// The last frame for a report: bytes of a PNG file, and what it shows, or why there is none. Both are empty without
 /// frames, and in builds without VTK and zlib.
