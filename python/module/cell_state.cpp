@@ -142,7 +142,9 @@ void bindCellState(py::class_<Cell>& type) {
           "pressure", [](const Cell& c) { return rve::stress(c.now()).pressure; }, "Pa; of discs in their plane.")
       .def_property_readonly(
           "fabric", [](const Cell& c) { return arrayOf(rve::fabric(c.now())); }, "Mean of n n over contacts; (3, 3).")
-      .def_property_readonly("solid_fraction", [](const Cell& c) { return rve::solidFraction(c.now()); })
+      .def_property_readonly(
+          "solid_fraction", [](const Cell& c) { return rve::solidFraction(c.now()); },
+          "Fraction of the volume that grains fill; overlaps count twice.")
       .def_property_readonly("balance", &balanceOf,
                              "Largest force on a grain over the mean contact force, `unbalanced`; `mean_force` (N), "
                              "`coordination`, numbers of `contacts`, `rattlers`, `sliding` contacts, `bonds`.")
