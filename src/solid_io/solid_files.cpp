@@ -12,17 +12,19 @@ using io::lower, io::shown, io::trimmed;
 
 namespace {
 
-[[noreturn]] void refuseEnding(const std::filesystem::path& path) {
+[[noreturn]] void refuseEnding(const std::filesystem::path& path, const std::string& others = {}) {
   throw InputError("the ending of the name is " + shown(path.extension().string()), path.string(),
-                   "use .msh (Gmsh) or .inp (Abaqus)");
+                   "use .msh (Gmsh) or .inp (Abaqus)" + others);
 }
 
 }  // namespace
 
 SolidFile readSolid(const std::filesystem::path& path) {
   const std::string ending = lower(path.extension().string());
-  if (ending != ".msh" && ending != ".inp") refuseEnding(path);
+  const bool exodus = ending == ".e" || ending == ".exo" || ending == ".ex2" || ending == ".g";
+  if (ending != ".msh" && ending != ".inp" && !exodus) refuseEnding(path, ", or .e, .exo, .ex2, .g (Exodus)");
   const std::string bytes = io::readWhole(path, "a mesh");
+  if (exodus) return exodusFromBytes(bytes, path.string());
   // Decks are written under the ending .msh too: what the file begins with says what it is.
   const std::string_view start = trimmed(io::withoutByteOrderMark(bytes, path.string()).substr(0, 4096));
   const bool abaqus = start.starts_with('*') || (ending == ".inp" && !start.starts_with('$'));

@@ -1,4 +1,4 @@
-// Meshes of solids from files and into files: Gmsh MSH and Abaqus INP (which CalculiX reads).
+// Meshes of solids from files: Gmsh MSH, Abaqus INP (which CalculiX reads), Exodus; and into files of the first two.
 //
 // Rules of all readers. Coordinates are taken as they are; the caller converts them to metres. Nodes are put into the
 // order of fem::ElementShape. Volume elements make the mesh; surface elements are taken as names for faces of volume
@@ -63,7 +63,15 @@ SolidFile readAbaqus(const std::filesystem::path& path);
 /// @param name  of the deck, for errors and for the folder of what it includes
 SolidFile abaqusFromText(std::string_view bytes, const std::string& name);
 
-/// .msh or .inp, in whatever case; which of the two it is its content says.
+/// Exodus II as Cubit and MOOSE write it, in the classic formats of netCDF; files of netCDF-4 are refused. Blocks of
+/// HEX8, HEX20, HEX27, TET4 and TET10 are elements, each block an element set; of SHELL, TRI and QUAD names for faces,
+/// of BAR, BEAM, TRUSS and SPHERE names for nodes; without volumes QUAD4 and QUAD8 are elements of plane strain. Side
+/// sets become face sets and node sets, node sets node sets, under their names, or "block 1", "side set 2", "node set
+/// 3" by their ids where they have none. Results are passed over. Numbers of nodes and elements are those of their
+/// order in the file, from 1; errors name the block or set in place of a line.
+SolidFile exodusFromBytes(std::string_view bytes, const std::string& name);
+
+/// .msh, .inp, or .e, .exo, .ex2, .g (Exodus), in whatever case; which of the first two it is its content says.
 /// @throws InputError also on another ending
 SolidFile readSolid(const std::filesystem::path& path);
 
