@@ -24,6 +24,7 @@ bool testCellsOf(int argc, char** argv);  ///< false if a cell breaks down in a 
 bool studyScene(int argc, char** argv);
 bool drawRun(int argc, char** argv);
 bool reportRun(int argc, char** argv);
+bool convertFile(int argc, char** argv);
 bool writeStarter(int argc, char** argv);
 
 inline constexpr Verb verbs[] = {
@@ -41,6 +42,7 @@ inline constexpr Verb verbs[] = {
     {"study", "runs a scene over lists of parameters, in several processes", studyScene},
     {"picture", "draws a frame of a run, or all of them as a film", drawRun},
     {"report", "writes a page (HTML, Markdown) on a run", reportRun},
+    {"convert", "grains and meshes from files of other codes, and into them", convertFile},
     {"new", "prints a commented starter scene, or writes it", writeStarter},
 };
 

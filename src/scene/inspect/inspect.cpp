@@ -7,6 +7,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
+#include "dovetail/scene/convert.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
 #include "inspecting.hpp"
@@ -86,8 +87,10 @@ void tell(const fs::path& file, std::ostream& out) {
   if (ending == ".h5") return inspectHdf5(file, out);
   if (ending == ".vtkhdf") return inspectProvenance(file, out);
   if (ending == ".state") return inspectState(file, out);
+  if (inspectGrains(file, out)) return;
   if (!io::isOurs(file))
-    throw InputError("this is no file of Dovetail's", file.string(), "give a scene, or a file that a run wrote");
+    throw InputError("this is no file of Dovetail's", file.string(),
+                     "give a scene, a file that a run wrote, or one of spheres of another code");
   if (ending == ".txt") return inspectText(file, out);
   out << "written by Dovetail\n";
 }

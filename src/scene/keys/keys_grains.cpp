@@ -64,8 +64,40 @@ void describe(Fields& f, GrainsOfState& v) {
           "rest; clumps and bonds are not read"},
          v.file);
 }
+namespace {
+void ofCode(Fields& f, GrainsOfCode& v, const char* types) {
+  f.number({"density", "mass per volume, where the file has none"}, v.density, positive(unit::density));
+  f.integer({"type", types}, v.type, -1, many);
+}
+void frame(Fields& f, std::int64_t& value) {
+  f.integer({"frame", "of a file with several, from 0; -1 is the last, -2 the one before"}, value, -many, many);
+}
+}  // namespace
+
+void describe(Fields& f, GrainsOfLammps& v) {
+  static constexpr const char* systems[] = {"file", "si", "cgs", "micro", "nano", "lj"};
+  f.file(
+      {"file",
+       "data file of LAMMPS or LIGGGHTS (atom style sphere, granular, bpm/sphere or hybrid of sphere), or a text dump "
+       "with positions, radii and, if there, velocities, omegas, densities or masses"},
+      v.file);
+  f.choice({"units", "of the file; file: those it names, else si; lj: taken as metres, kilograms and seconds"}, v.units,
+           systems);
+  frame(f, v.frame);
+  ofCode(f, v, "of atoms: only these; -1: all");
+}
+void describe(Fields& f, GrainsOfYade& v) {
+  f.file({"file", "text of export.text or export.textExt of YADE: x_y_z_r, with matId, id or attrs"}, v.file);
+  ofCode(f, v, "number of a material: only its spheres; -1: all");
+}
+void describe(Fields& f, GrainsOfMercury& v) {
+  f.file({"file", "restart or .data file of MercuryDPM; its walls and boundaries are not read"}, v.file);
+  frame(f, v.frame);
+  ofCode(f, v, "number of a species: only its spheres; -1: all");
+}
 void describe(Fields& f, Particles& v) {
-  static constexpr const char* sources[] = {"lattice", "packing", "list", "csv", "vtk", "state"};
+  static constexpr const char* sources[] = {"lattice", "packing", "list", "csv",    "vtk",
+                                            "state",   "lammps",  "yade", "mercury"};
   f.where(v.where);
   f.oneOf({"from", "where the spheres come from"}, v.from, sources);
   f.text({"name", "of the group, for bonds and drives"}, v.name, false);

@@ -16,7 +16,9 @@ void describe(Fields& f, BoxMesh& v) {
         v.box);
 }
 void describe(Fields& f, MeshFile& v) {
-  f.file({"file", "Gmsh .msh, Abaqus .inp, or .vtu where the build has VTK, with its sets"}, v.file);
+  f.file(
+      {"file", "Gmsh .msh, Abaqus .inp, Exodus .e, .exo, .ex2 or .g, or .vtu where the build has VTK, with its sets"},
+      v.file);
   f.number({"scale", "metres per unit of the file"}, v.scale, positive(unit::none));
 }
 void describe(Fields& f, TetrahedraMesh& v) {

@@ -133,8 +133,24 @@ struct SphereFrame : MadeOf {
 struct GrainsOfState {
   std::string file;
 };
+/// Spheres of a file of another code, see grain_io.
+struct GrainsOfCode {
+  std::string file;
+  std::optional<double> density;  ///< kg/m³, where the file has none
+  std::int64_t type = -1;         ///< those of this type alone; −1: all
+};
+struct GrainsOfLammps : GrainsOfCode {
+  int units = 0;  ///< grain_io::Units
+  std::int64_t frame = -1;
+};
+struct GrainsOfYade : GrainsOfCode {};
+struct GrainsOfMercury : GrainsOfCode {
+  std::int64_t frame = -1;
+};
 struct Particles {
-  std::variant<Lattice, RandomPacking, SphereList, SphereFile, SphereFrame, GrainsOfState> from;
+  std::variant<Lattice, RandomPacking, SphereList, SphereFile, SphereFrame, GrainsOfState, GrainsOfLammps, GrainsOfYade,
+               GrainsOfMercury>
+      from;
   std::string name;             ///< of the group, for bonds and drives
   std::string contactMaterial;  ///< empty: that of the law in "contact"
   Vec3 velocity, spin;          ///< m/s, rad/s, added to those of single spheres

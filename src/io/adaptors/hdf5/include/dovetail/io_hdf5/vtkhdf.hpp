@@ -33,4 +33,28 @@ struct HdfGrid {
 /// @throws InputError for a field of another size than the grid, and as writeHdf5; Error as writeHdf5
 void writeVtkHdf(const std::filesystem::path& path, double time, const HdfGrid& grid, const KeyValues& provenance);
 
+/// Points at an instant, with values side by side.
+struct HdfPoints {
+  double time = 0.0;             ///< s
+  std::span<const Vec3> points;  ///< m
+  struct Field {
+    std::string name;
+    std::span<const double> values;
+    int components = 1;
+  };
+  struct Integers {
+    std::string name;
+    std::span<const std::int64_t> values;
+  };
+  std::vector<Field> fields;
+  std::vector<Integers> integers;
+};
+
+/// All frames in one file: a temporal UnstructuredGrid of vertices, VTKHDF 2.0, which VTK 9.3 and ParaView 5.12 and
+/// later read. Points may come and go between the frames.
+/// @throws InputError if there are no frames, times do not grow, frames have other fields than the first, or fields
+/// another size than the points; and as writeHdf5; Error as writeHdf5
+void writeVtkHdfSeries(const std::filesystem::path& path, const std::vector<HdfPoints>& frames,
+                       const KeyValues& provenance);
+
 }  // namespace dovetail::io

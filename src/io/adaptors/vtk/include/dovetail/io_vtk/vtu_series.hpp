@@ -95,6 +95,9 @@ struct GridFrame {
 /// Its bytes as a VTI file. @throws InputError if a field has another size than the grid; Error if VTK fails
 std::string vtiText(double time, const GridFrame& frame, const KeyValues& provenance);
 
+/// The bytes of one frame as a VTU file. The sizes of fields must be checked. @throws Error if VTK fails
+std::string vtuText(double time, const ParticleFrame& frame, const KeyValues& provenance);
+
 /// What the frames of a series are files of.
 enum class FrameFile { vtu, vtp };
 
