@@ -88,6 +88,10 @@ TEST_F(Convert, MeshesOfSolidsBecomeOthers) {
   EXPECT_NE(readText(folder / "n.inp").find("body"), std::string::npos);
   EXPECT_EQ(runProgram({"convert", (folder / "m.msh").string(), (folder / "n.inp").string(), "--density", "1"}).code,
             2);
+  if (!WITH_FRAMES) return;
+  const auto frame = runProgram({"convert", (folder / "m.msh").string(), (folder / "m.vtu").string()});
+  EXPECT_NE(frame.out.find("4 nodes, 1 elements"), std::string::npos) << frame.err;
+  EXPECT_EQ(runProgram({"convert", (folder / "m.vtu").string(), (folder / "v.inp").string()}).code, 0);
 }
 
 }  // namespace

@@ -199,7 +199,7 @@ TEST(Exodus, ChangedFilesAreReadOrRefused) {
   std::mt19937 random(3);
   std::size_t refused = 0;
   const std::filesystem::path path = file.path().string() + ".changed.e";
-  for (int round = 0; round < 1000; ++round) {
+  for (int round = 0; round < 300; ++round) {
     std::string changed = bytes;
     const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
     if (round % 8 == 0) changed.resize(below(changed.size()));
@@ -209,7 +209,7 @@ TEST(Exodus, ChangedFilesAreReadOrRefused) {
     refused += !refusal(path).empty();
   }
   std::filesystem::remove(path);
-  EXPECT_GT(refused, 20u);
+  EXPECT_GT(refused, 10u);
 }
 
 }  // namespace

@@ -96,10 +96,12 @@ void convertSeries(const fs::path& from, const fs::path& to, const ConvertOption
 void convertMesh(const fs::path& from, const fs::path& to, const ConvertOptions& settings, std::ostream& log) {
   if (settings.density || settings.frame)
     throw InputError("meshes have no densities and frames", from.string(), "leave out --density and --frame");
-  if (io::lower(to.extension().string()) == ".vtu") return writeMeshFrame(from, to);
   const MeshOfFile read = readMesh(from.string());
   for (const std::string& note : read.notes) log << note << '\n';
-  solid_io::writeSolid(read.mesh, to);
+  if (io::lower(to.extension().string()) == ".vtu")
+    writeMeshFrame(to, read.mesh);
+  else
+    solid_io::writeSolid(read.mesh, to);
   log << read.mesh.X.size() << " nodes, " << read.mesh.elementCount() << " elements: " << to.string() << '\n';
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "dovetail/fem/mesh/solid_mesh.hpp"
 #include "dovetail/scene/convert.hpp"
 
 namespace dovetail::scene {
@@ -16,8 +17,7 @@ grain_io::GrainFile grainsOfFrame(const std::filesystem::path& frame);
 /// Times, s, and files of a series (.pvd).
 std::vector<std::pair<double, std::filesystem::path>> framesOf(const std::filesystem::path& series);
 void writeGrainFrame(const std::filesystem::path& to, const grain_io::GrainFile& grains);
-/// A mesh of a solid into .vtu. @param from  as readMesh
-void writeMeshFrame(const std::filesystem::path& from, const std::filesystem::path& to);
+void writeMeshFrame(const std::filesystem::path& to, const fem::SolidMesh& mesh);
 
 /// Frames of grains, one after the other; refused in builds without HDF5.
 void writeGrainSeries(const std::filesystem::path& to, const std::vector<grain_io::GrainFile>& frames);

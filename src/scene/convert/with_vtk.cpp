@@ -59,8 +59,8 @@ void writeGrainFrame(const std::filesystem::path& to, const GrainFile& grains) {
   io::writeFileAtomically(to, io::vtuText(grains.time.value_or(0.0), frame, io::withMark(io::provenance())));
 }
 
-void writeMeshFrame(const std::filesystem::path& from, const std::filesystem::path& to) {
-  solid_io::writeVtu(to, readMesh(from.string()).mesh, {}, io::provenance());
+void writeMeshFrame(const std::filesystem::path& to, const fem::SolidMesh& mesh) {
+  solid_io::writeVtu(to, mesh, {}, io::provenance());
 }
 
 }  // namespace dovetail::scene

@@ -15,6 +15,6 @@ namespace {
 grain_io::GrainFile grainsOfFrame(const std::filesystem::path& frame) { refuse(frame); }
 std::vector<std::pair<double, std::filesystem::path>> framesOf(const std::filesystem::path& series) { refuse(series); }
 void writeGrainFrame(const std::filesystem::path& to, const grain_io::GrainFile&) { refuse(to); }
-void writeMeshFrame(const std::filesystem::path&, const std::filesystem::path& to) { refuse(to); }
+void writeMeshFrame(const std::filesystem::path& to, const fem::SolidMesh&) { refuse(to); }
 
 }  // namespace dovetail::scene
