@@ -29,12 +29,13 @@ from ._calibration import Fit, calibrate
 from ._cells import make_cells
 from ._core import InputError, NumericalError, Rve, read_cells, schema, set_threads, threads, write_cells
 from ._looking import Looks, Picture, fields, picture, series
+from ._own_laws import InPlace, Law, contact_law, load_laws
 from ._progress import Progress, in_terminal
 from ._studies import Rows, study
 
-__all__ = ["Fit", "InputError", "NumericalError", "Picture", "Rows", "Run", "Rve", "calibrate", "check", "fields",
-           "make_cells", "picture", "read_cells", "read_scene", "resume", "run", "schema", "series", "set_threads",
-           "study", "threads", "write_cells"]
+__all__ = ["Fit", "InputError", "NumericalError", "Picture", "Rows", "Run", "Rve", "calibrate", "check",
+           "contact_law", "fields", "load_laws", "make_cells", "picture", "read_cells", "read_scene", "resume", "run",
+           "schema", "series", "set_threads", "study", "threads", "write_cells"]
 
 _Path = typing.Union[str, "os.PathLike[str]"]
 _Scene = typing.Union[_Path, typing.Dict[str, typing.Any], _core.Scene]
@@ -81,10 +82,28 @@ class Run(Looks, _core.Run):
     Stages, outputs and their files are those of `dovetail.run`; here time simply passes, and a dict needs no stages.
     """
 
-    def __init__(self, scene: _Scene, folder: _Path | None = None, **settings: typing.Any) -> None:
+    def __init__(self, scene: _Scene, folder: _Path | None = None, contact_law: Law | None = None,
+                 **settings: typing.Any) -> None:
+        """`contact_law` stands in place of the scene's: see `dovetail.contact_law`."""
         if isinstance(scene, dict) and not {"stages", "include"} & set(scene):
             scene = {**scene, "stages": [{"do": "run", "time": 1}]}
-        super().__init__(read_scene(scene, folder, **settings))
+        self._law = InPlace(contact_law)
+        with self._law():
+            super().__init__(self._law.scene(read_scene(scene, folder, **settings)))
+
+    @property
+    def limits(self) -> list[tuple[float, str]]:
+        """Limits of the step now: (s, what sets it)."""
+        with self._law():
+            return super().limits
+
+    @property
+    def notes(self) -> list[str]:
+        """Decisions that the scene leaves open, and what is not booked."""
+        return super().notes + self._law.notes
+
+    def __str__(self) -> str:
+        return "\n".join([super().__str__(), *self._law.notes])
 
     @property
     def grains(self) -> _core.Grains:
@@ -148,22 +167,28 @@ def _folder(scene: _Scene, out: _Path | None) -> str:
 
 
 def run(scene: _Scene, out: _Path | None = None, replace: bool = False, quiet: bool = False,
-        folder: _Path | None = None, **settings: typing.Any) -> str:
+        folder: _Path | None = None, contact_law: Law | None = None, **settings: typing.Any) -> str:
     """Runs all stages of a scene into the folder `out`, as `dovetail run` does; returns the folder.
 
     Ctrl-C ends with a checkpoint, from which `resume` goes on.
     """
     where = _folder(scene, out)
-    _core.run_scene(read_scene(scene, folder, **settings), where, replace, (lambda text: None) if quiet else _write,
-                    not quiet and in_terminal())
+    law = InPlace(contact_law)
+    with law():
+        _core.run_scene(law.scene(read_scene(scene, folder, **settings)), where, replace,
+                        (lambda text: None) if quiet else _write, not quiet and in_terminal())
     return where
 
 
-def resume(out: _Path, until: float | None = None, quiet: bool = False) -> None:
+def resume(out: _Path, until: float | None = None, quiet: bool = False, contact_law: Law | None = None) -> None:
     """Goes on from the last checkpoint in a folder; `until`: a new end of the last stage, s."""
-    _core.resume_run(os.fspath(out), until, (lambda text: None) if quiet else _write, not quiet and in_terminal())
+    with InPlace(contact_law)():
+        _core.resume_run(os.fspath(out), until, (lambda text: None) if quiet else _write,
+                         not quiet and in_terminal())
 
 
-def check(scene: _Scene, folder: _Path | None = None, **settings: typing.Any) -> str:
+def check(scene: _Scene, folder: _Path | None = None, contact_law: Law | None = None, **settings: typing.Any) -> str:
     """Sizes, limits of the step, memory and time of a scene, as text."""
-    return _core.check_scene(read_scene(scene, folder, **settings))
+    law = InPlace(contact_law)
+    with law():
+        return _core.check_scene(law.scene(read_scene(scene, folder, **settings)))

@@ -1,6 +1,7 @@
 // The Python module dovetail._core.
 #include <exception>
 
+#include "called_laws.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "scene_run.hpp"
@@ -38,6 +39,7 @@ PYBIND11_MODULE(_core, m) {
   bindStudies(m);
   bindCalibration(m);
   bindCells(m);
+  bindOwnLaws(m);
 }
 
 }  // namespace dovetail::python

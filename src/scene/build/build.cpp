@@ -10,6 +10,7 @@
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/motion/stable_step.hpp"
+#include "dovetail/scene/laws_in_place.hpp"
 #include "from_state.hpp"
 #include "parts.hpp"
 #include "run/frame_fields.hpp"
@@ -22,6 +23,10 @@ namespace dovetail::scene {
 namespace {
 
 void setLaws(dem::Model& grains, const Scene& scene) {
+  if (const auto laws = lawsInPlace()) {
+    grains.laws = laws;
+    return;
+  }
   if (scene.contact || !scene.contacts.empty()) {
     grains.laws = makeLaws(scene);
     return;

@@ -10,6 +10,7 @@
 #include "dovetail/dem/laws/materials.hpp"
 #include "dovetail/dem/laws/rolling.hpp"
 #include "dovetail/dem/model/model.hpp"
+#include "dovetail/scene/laws_in_place.hpp"
 #include "keys/advice.hpp"
 #include "law_kinds.hpp"
 #include "parts.hpp"
@@ -372,7 +373,7 @@ double softestSpring(const Scene& scene, int row, double radius) {
 
 Impact briefestImpact(const Scene& scene, const dem::Particles& particles) {
   Impact briefest;
-  if (!scene.contact && scene.contacts.empty()) return briefest;
+  if (!scene.contact && scene.contacts.empty()) return {impactInPlace(scene, particles), ""};
   const Table table = tableOf(scene);
   const std::vector<std::string> rows = rowsOf(scene);
   const auto look = [&](int row, double radius, double mass) {
