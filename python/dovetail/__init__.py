@@ -25,15 +25,18 @@ try:
 except ImportError as error:
     raise ImportError(f"{error}: dovetail was built for another Python than {sys.executable} {sys.version.split()[0]}, or "
                       "this one has no numpy; Debian's is /usr/bin/python3") from error
+from ._arrays import Folder, written
 from ._calibration import Fit, calibrate
 from ._cells import make_cells
 from ._core import InputError, NumericalError, Rve, read_cells, schema, set_threads, threads, write_cells
 from ._looking import Looks, Picture, fields, picture, series
+from ._moves import Moves
 from ._own_laws import InPlace, Law, contact_law, load_laws
 from ._progress import Progress, in_terminal
 from ._studies import Rows, study
+from ._views import Grains
 
-__all__ = ["Fit", "InputError", "NumericalError", "Picture", "Rows", "Run", "Rve", "calibrate", "check",
+__all__ = ["Fit", "Grains", "InputError", "NumericalError", "Picture", "Rows", "Run", "Rve", "calibrate", "check",
            "contact_law", "fields", "load_laws", "make_cells", "picture", "read_cells", "read_scene", "resume", "run",
            "schema", "series", "set_threads", "study", "threads", "write_cells"]
 
@@ -62,34 +65,42 @@ def _text(value: typing.Any) -> str:
 
 def read_scene(scene: _Scene, folder: _Path | None = None, **settings: typing.Any) -> _core.Scene:
     """The scene of a file, or of a dict that says the same, arrays in place of lists as well; `folder`: that a dict's
-    names of files are relative to.
+    names of files are relative to. Arrays in place of files are refused here: `run`, `Run` and `check` take them.
 
     `settings` are parameters of "let" by their names; other keys by their paths: `**{"steps.dt": "1e-5 s"}`.
     """
+    return _read(scene, folder, settings, None)
+
+
+def _read(scene: _Scene, folder: _Path | None, settings: dict[str, typing.Any],
+          arrays: Folder | None) -> _core.Scene:
+    """As read_scene; arrays go into `arrays`."""
     changes = [f"{key}={_text(value)}" for key, value in settings.items()]
     if isinstance(scene, _core.Scene):
         if changes or folder is not None:
             raise InputError("this scene has been read: give folder and settings where it is")
         return scene
     if isinstance(scene, dict):
-        return _core.Scene(_json(scene), "scene", folder or os.getcwd(), changes)
+        return _core.Scene(_json(written(scene, arrays)), "scene", folder or os.getcwd(), changes)
     return _core.read_scene(os.fspath(scene), changes)
 
 
-class Run(Looks, _core.Run):
+class Run(Looks, Moves, _core.Run):
     """A scene, built and started, that goes on when it is told to: arrays, ledger and own forces between the steps.
 
     Stages, outputs and their files are those of `dovetail.run`; here time simply passes, and a dict needs no stages.
     """
 
     def __init__(self, scene: _Scene, folder: _Path | None = None, contact_law: Law | None = None,
-                 **settings: typing.Any) -> None:
-        """`contact_law` stands in place of the scene's: see `dovetail.contact_law`."""
+                 solids: typing.Mapping[str, typing.Any] | None = None, **settings: typing.Any) -> None:
+        """`contact_law` stands in place of the scene's: see `dovetail.contact_law`. `solids` of one's own by their
+        names: objects with X, mass, faces or cells, and forces(t, u, v)."""
         if isinstance(scene, dict) and not {"stages", "include"} & set(scene):
             scene = {**scene, "stages": [{"do": "run", "time": 1}]}
         self._law = InPlace(contact_law)
+        self._arrays = Folder()
         with self._law():
-            super().__init__(self._law.scene(read_scene(scene, folder, **settings)))
+            super().__init__(self._law.scene(_read(scene, folder, settings, self._arrays)), dict(solids or {}))
 
     @property
     def limits(self) -> list[tuple[float, str]]:
@@ -106,9 +117,9 @@ class Run(Looks, _core.Run):
         return "\n".join([super().__str__(), *self._law.notes])
 
     @property
-    def grains(self) -> _core.Grains:
+    def grains(self) -> Grains:
         """Grains as arrays, in the order of their ids."""
-        return _core.Grains(self)
+        return Grains(self)
 
     @property
     def solids(self) -> dict[str, _core.Solid]:
@@ -173,10 +184,14 @@ def run(scene: _Scene, out: _Path | None = None, replace: bool = False, quiet: b
     Ctrl-C ends with a checkpoint, from which `resume` goes on.
     """
     where = _folder(scene, out)
-    law = InPlace(contact_law)
-    with law():
-        _core.run_scene(law.scene(read_scene(scene, folder, **settings)), where, replace,
-                        (lambda text: None) if quiet else _write, not quiet and in_terminal())
+    law, arrays = InPlace(contact_law), Folder(where)
+    try:
+        with law():
+            _core.run_scene(law.scene(_read(scene, folder, settings, arrays)), where, replace,
+                            (lambda text: None) if quiet else _write, not quiet and in_terminal())
+    except InputError:
+        arrays.take_back()
+        raise
     return where
 
 
@@ -191,4 +206,4 @@ def check(scene: _Scene, folder: _Path | None = None, contact_law: Law | None = 
     """Sizes, limits of the step, memory and time of a scene, as text."""
     law = InPlace(contact_law)
     with law():
-        return _core.check_scene(law.scene(read_scene(scene, folder, **settings)))
+        return _core.check_scene(law.scene(_read(scene, folder, settings, Folder())))

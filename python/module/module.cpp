@@ -40,6 +40,9 @@ PYBIND11_MODULE(_core, m) {
   bindCalibration(m);
   bindCells(m);
   bindOwnLaws(m);
+  bindViews(m);
+  bindDrives(m);
+  bindFiles(m);
 }
 
 }  // namespace dovetail::python

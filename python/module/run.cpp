@@ -71,7 +71,10 @@ std::string textOf(SceneRun& run) {
 
 void bindRun(py::module_& m) {
   py::class_<SceneRun>(m, "Run")
-      .def(py::init([](const scene::Scene& scene) { return std::make_unique<SceneRun>(scene); }))
+      .def(py::init([](const scene::Scene& scene, const py::dict& solids) {
+             return std::make_unique<SceneRun>(scene, solids);
+           }),
+           py::arg("scene"), py::arg("solids"))
       .def("_advance", &SceneRun::advance)
       .def("_add_force", &SceneRun::addForce)
       .def_property_readonly(

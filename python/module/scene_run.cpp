@@ -20,20 +20,21 @@ std::vector<int> byIds(const dem::Particles& particles) {
   return grains;
 }
 
-/// A function of Python's, which is copied and let go of with the interpreter's lock alone.
-std::shared_ptr<py::function> held(py::function function) {
-  return {new py::function(std::move(function)), [](py::function* one) {
+}  // namespace
+
+std::shared_ptr<py::object> held(py::object object) {
+  return {new py::object(std::move(object)), [](py::object* one) {
             const py::gil_scoped_acquire lock;
             delete one;
           }};
 }
 
-}  // namespace
-
-SceneRun::SceneRun(scene::Scene scene) : scene_(std::move(scene)), built_(scene::build(scene_)) {
+SceneRun::SceneRun(scene::Scene scene, const py::dict& solids)
+    : scene_(std::move(scene)), built_(scene::build(scene_)) {
   if (!scene_.stages.empty() && scene_.stages.front().changes)
     throw InputError("the first stage changes something, and steps make no stages", scene_.stages.front().where,
                      "write what it changes where the scene describes it, or run the whole scene");
+  addOwnSolids(built_, solids);
   scene::start(built_, scene_);
   row_ = std::make_unique<scene::SeriesRow>(built_, scene_);
 }
@@ -42,7 +43,16 @@ scene::Built& SceneRun::built() {
   if (steps_)
     throw InputError("a step is under way", "Run",
                      "wait for its end; in a force use what the function is given, its time, places and velocities");
+  if (held_)
+    throw InputError("views of its grains are open", "Run",
+                     "end their `with` first; what you need of the run beside them, take before it");
   return built_;
+}
+
+scene::Built& SceneRun::hold() {
+  scene::Built& all = built();
+  held_ = true;
+  return all;
 }
 
 void SceneRun::requireWhole() {

@@ -18,8 +18,9 @@ namespace dovetail::python {
 /// Built and started as its scene describes it; stages and outputs are left to runs of the whole scene.
 class SceneRun {
 public:
+  /// @param solids  of Python's own, by their names
   /// @throws InputError as scene::build and scene::start; if the first stage changes something
-  explicit SceneRun(scene::Scene scene);
+  SceneRun(scene::Scene scene, const py::dict& solids);
 
   /// Macro steps; asks Python now and then whether somebody wants to end (Ctrl-C), which ends between two of them.
   /// @throws InputError if steps is negative or a callback has broken the run off before
@@ -33,9 +34,14 @@ public:
   /// ids. @throws InputError, before anything has changed, for another shape or numbers that are not finite
   void addForce(const std::string& name, py::function function);
 
+  /// Nobody but the caller, who is given the run, uses it until release(). @throws InputError as run()
+  scene::Built& hold();
+  void release() { held_ = false; }
+
   const scene::Scene& scene() const { return scene_; }
   scene::Built& built();
-  /// @throws InputError while a step is under way: from a callback, or from another thread
+  /// @throws InputError while a step is under way: from a callback, or from another thread;
+  /// while it is held
   coupling::CoupledRun& run() { return *built().run; }
   /// Numbers of the grains by ascending id, without those that stand for points of solids.
   const std::vector<int>& grains();
@@ -50,8 +56,18 @@ private:
   std::unique_ptr<scene::SeriesRow> row_;
   std::vector<int> grains_;
   std::int64_t grainsOf_ = -1;
-  bool broken_ = false, steps_ = false;
+  bool broken_ = false, steps_ = false, held_ = false;
 };
+
+/// An object of Python's, which is copied and let go of with the interpreter's lock alone.
+std::shared_ptr<py::object> held(py::object object);
+
+/// Puts solids of Python's own into a run that has not started. @throws InputError for what is missing or does not fit
+void addOwnSolids(scene::Built& built, const py::dict& solids);
+
+/// Numbers of rows, (M, perRow). @throws InputError unless they are, each below `below`
+std::vector<int> numbersOf(const py::array_t<std::int64_t, py::array::c_style>& rows, std::size_t perRow,
+                           std::size_t below, const std::string& what);
 
 void bindScenes(py::module_& m);
 void bindRun(py::module_& m);
@@ -61,5 +77,8 @@ void bindLooking(py::module_& m);
 void bindStudies(py::module_& m);
 void bindCalibration(py::module_& m);
 void bindCells(py::module_& m);
+void bindViews(py::module_& m);
+void bindDrives(py::module_& m);
+void bindFiles(py::module_& m);
 
 }  // namespace dovetail::python

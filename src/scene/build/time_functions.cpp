@@ -9,6 +9,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "keys/values.hpp"
+#include "own_paths.hpp"
 #include "read/parameters.hpp"
 
 namespace dovetail::scene {
@@ -16,24 +17,26 @@ namespace dovetail::scene {
 namespace {
 
 /// Many nodes ask for the same few times.
+template <class Value>
 class Remembered {
 public:
-  explicit Remembered(TimeFunction function) : function_(std::move(function)) {}
-  double operator()(double t) {
+  explicit Remembered(std::function<Value(double)> function) : function_(std::move(function)) {}
+  Value operator()(double t) {
     for (const auto& [time, value] : last_)
       if (time == t) return value;
-    std::pair<double, double>& oldest = last_[next_ = (next_ + 1) % last_.size()];
+    std::pair<double, Value>& oldest = last_[next_ = (next_ + 1) % last_.size()];
     oldest = {t, function_(t)};
     return oldest.second;
   }
 
 private:
-  TimeFunction function_;
-  std::array<std::pair<double, double>, 4> last_{{{NAN, 0.0}, {NAN, 0.0}, {NAN, 0.0}, {NAN, 0.0}}};
+  std::function<Value(double)> function_;
+  std::array<std::pair<double, Value>, 4> last_{{{NAN, {}}, {NAN, {}}, {NAN, {}}, {NAN, {}}}};
   std::size_t next_ = 0;
 };
-TimeFunction remembered(TimeFunction function) {
-  return [all = std::make_shared<Remembered>(std::move(function))](double t) { return (*all)(t); };
+template <class Value>
+std::function<Value(double)> remembered(std::function<Value(double)> function) {
+  return [all = std::make_shared<Remembered<Value>>(std::move(function))](double t) { return (*all)(t); };
 }
 
 /// ∫ v dt from 0 on.
@@ -130,11 +133,15 @@ StepOf stepOf(const coupling::CoupledRun& run) {
 
 Travel travelOf(const TimeValue& displacement, const Scene& scene, const StepOf& stepNow) {
   if (isConstant(displacement)) return {functionOf(displacement, scene), [](double) { return 0.0; }};
+  return travelOf(functionOf(displacement, scene), stepNow);
+}
+
+Travel travelOf(const TimeFunction& displacement, const StepOf& stepNow) {
   const auto step = [stepNow] {
     constexpr double least = 1e-9;  // s: the step before the start, and where no time passes
     return std::max(least, stepNow ? 0.1 * stepNow() : 0.0);
   };
-  const auto path = [f = functionOf(displacement, scene)](double t) { return t < 0.0 ? 2.0 * f(0.0) - f(-t) : f(t); };
+  const auto path = [f = displacement](double t) { return t < 0.0 ? 2.0 * f(0.0) - f(-t) : f(t); };
   return {path, [path, step](double t) {
             const double h = step();
             return (8.0 * (path(t + h) - path(t - h)) - (path(t + 2.0 * h) - path(t - 2.0 * h))) / (12.0 * h);
@@ -144,8 +151,12 @@ Travel travelOf(const TimeValue& displacement, const Scene& scene, const StepOf&
 Travel travelAt(const TimeValue& velocity, const Scene& scene, const StepOf& stepNow) {
   if (isConstant(velocity))
     return {[v = velocity.number](double t) { return v * t; }, [v = velocity.number](double) { return v; }};
-  const auto speed = [f = functionOf(velocity, scene)](double t) { return f(std::max(0.0, t)); };
-  const auto piece = [stepNow, before = 1e-5 * durationOf(scene)] {
+  return travelAt(functionOf(velocity, scene), stepNow, 1e-5 * durationOf(scene));
+}
+
+Travel travelAt(const TimeFunction& velocity, const StepOf& stepNow, double before) {
+  const auto speed = [f = velocity](double t) { return f(std::max(0.0, t)); };
+  const auto piece = [stepNow, before] {
     const double step = stepNow ? stepNow() : 0.0;
     return step > 0.0 ? 0.5 * step : before;
   };
@@ -164,15 +175,30 @@ std::array<Travel, 3> travels(const TimeVector& velocity, const std::optional<Ti
   return all;
 }
 
-Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene,
-            const StepOf& step) {
-  const std::array<Travel, 3> all = travels(velocity, displacement, scene, step);
+namespace {
+Path pathOf(const std::array<Travel, 3>& all) {
   return {[all](double t) {
             return Vec3{all[0].displacement(t), all[1].displacement(t), all[2].displacement(t)};
           },
           [all](double t) {
             return Vec3{all[0].velocity(t), all[1].velocity(t), all[2].velocity(t)};
           }};
+}
+}  // namespace
+
+Path pathOf(const TimeVector& velocity, const std::optional<TimeVector>& displacement, const Scene& scene,
+            const StepOf& step) {
+  return pathOf(travels(velocity, displacement, scene, step));
+}
+
+Path pathOf(const std::function<Vec3(double)>& function, bool isVelocity, const StepOf& step) {
+  std::array<Travel, 3> all;
+  const auto vectors = remembered(function);
+  for (int c = 0; c < 3; ++c) {
+    const TimeFunction part = [vectors, c](double t) { return vectors(t)[c]; };
+    all[static_cast<std::size_t>(c)] = isVelocity ? travelAt(part, step, step()) : travelOf(part, step);
+  }
+  return pathOf(all);
 }
 
 }  // namespace dovetail::scene

@@ -8,6 +8,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/bodies/body_term.hpp"
 #include "dovetail/dem/walls/wall_checks.hpp"
+#include "own_paths.hpp"
 #include "time_functions.hpp"
 
 namespace dovetail::scene {
@@ -150,22 +151,6 @@ void requireServoAlone(const WallParts& parts, const WallMotion& motion) {
                      "write the side that moves as a plane of its own, and name it in \"open\"");
 }
 
-/// Whether a primitive keeps fitting the periods while it turns.
-void requireRepeatsTurned(const dem::Model& grains, const WallParts& parts, const Vec3& axis) {
-  const geometry::Periodicity& space = grains.pairs.periodicity();
-  if (norm(axis) == 0.0) return;
-  const Vec3 along = normalized(axis);
-  for (int k = 0; k < 3; ++k) {
-    if (!space.axes[static_cast<std::size_t>(k)] || std::abs(along[k]) > 1.0 - 1e-12) continue;
-    for (std::size_t i = 0; i < parts.axes.size(); ++i) {
-      const dem::PrimitiveWall& wall = dem::primitiveWall(grains, parts.firstPrimitive + i);
-      if (wall.shape != dem::PrimitiveWall::Shape::sphere && norm(cross(wall.axis, along)) > 1e-9)
-        throw InputError(std::string("the wall would turn out of the period along ") + "xyz"[k], "",
-                         "let its axis be that of the period, the normal of the plane or the axis of the cylinder");
-    }
-  }
-}
-
 void setServo(dem::Model& grains, WallParts& parts, const WallMotion& motion, const Scene& scene) {
   requireServoAlone(parts, motion);
   dem::WallServo* const before = servoIn(grains, parts);
@@ -214,14 +199,16 @@ void endServo(dem::Model& grains, WallParts& parts) {
   parts.servo.reset();
 }
 
-void setPath(const MovedModel& model, WallParts& parts, const WallMotion& motion, const Scene& scene) {
+}  // namespace
+
+void setPath(const MovedModel& model, WallParts& parts, const Vec3& axis, const MakeMotion& motion) {
   dem::Model& grains = model.grains;
   const RigidMotion now = placeOf(parts, grains, grains.time);
-  requireRepeatsTurned(grains, parts, motion.turn ? motion.turn->axis : motion.angularVelocity);
+  requireRepeatsTurned(grains, parts, axis);
   endServo(grains, parts);
   parts.base = {now.x, now.turn, {}, {}};
   parts.since = grains.time;
-  parts.motion = motionOf(motion, parts, scene, stepOf(model.run));
+  parts.motion = motion(parts);
   const double time = grains.time;
   forEachPrimitive(grains, parts, [&](dem::PrimitiveWallTerm& term, std::size_t i) {
     const Vec3 arm = parts.arms[i], axis = parts.axes[i];
@@ -238,7 +225,20 @@ void setPath(const MovedModel& model, WallParts& parts, const WallMotion& motion
   });
 }
 
-}  // namespace
+void requireRepeatsTurned(const dem::Model& grains, const WallParts& parts, const Vec3& axis) {
+  const geometry::Periodicity& space = grains.pairs.periodicity();
+  if (norm(axis) == 0.0) return;
+  const Vec3 along = normalized(axis);
+  for (int k = 0; k < 3; ++k) {
+    if (!space.axes[static_cast<std::size_t>(k)] || std::abs(along[k]) > 1.0 - 1e-12) continue;
+    for (std::size_t i = 0; i < parts.axes.size(); ++i) {
+      const dem::PrimitiveWall& wall = dem::primitiveWall(grains, parts.firstPrimitive + i);
+      if (wall.shape != dem::PrimitiveWall::Shape::sphere && norm(cross(wall.axis, along)) > 1e-9)
+        throw InputError(std::string("the wall would turn out of the period along ") + "xyz"[k], "",
+                         "let its axis be that of the period, the normal of the plane or the axis of the cylinder");
+    }
+  }
+}
 
 dem::PrescribedMotion motionOf(const RigidPath& motion, const WallParts& parts, const Scene& scene,
                                const StepOf& step) {
@@ -255,8 +255,12 @@ dem::PrescribedMotion motionOf(const RigidPath& motion, const dem::RigidMotion& 
   const double speed = norm(motion.angularVelocity);
   const Vec3 axis = motion.turn ? normalized(motion.turn->axis) : speed > 0.0 ? motion.angularVelocity / speed : Vec3{};
   const Travel angle = motion.turn ? travelOf(motion.turn->angle, scene, step) : travelAt({speed, ""}, scene);
-  const Vec3 centre = motion.turn ? motion.turn->point.value_or(own) : own, arm = base.x - centre;
-  return [=](double time) {
+  return rigidMotion(path, angle, axis, motion.turn ? motion.turn->point.value_or(own) : own, base, since);
+}
+
+dem::PrescribedMotion rigidMotion(const Path& path, const Travel& angle, const Vec3& axis, const Vec3& centre,
+                                  const dem::RigidMotion& base, double since) {
+  return [=, arm = base.x - centre](double time) {
     const double t = time - since;
     const Quaternion turn = fromRotationVector(angle.displacement(t) * axis);
     const Vec3 turned = rotate(turn, arm), omega = angle.velocity(t) * axis;
@@ -280,7 +284,9 @@ Vec3 centreOf(const WallParts& parts, const dem::Model& grains) {
 }
 
 void setMotion(const MovedModel& model, WallParts& parts, const WallMotion& motion, const Scene& scene) {
-  motion.servo ? setServo(model.grains, parts, motion, scene) : setPath(model, parts, motion, scene);
+  if (motion.servo) return setServo(model.grains, parts, motion, scene);
+  setPath(model, parts, motion.turn ? motion.turn->axis : motion.angularVelocity,
+          [&](const WallParts& now) { return motionOf(motion, now, scene, stepOf(model.run)); });
 }
 
 void setServoLoad(dem::Model& grains, const WallParts& parts, const Scene& scene) {
