@@ -107,7 +107,7 @@ class CompiledLaw(Law):
         return CompiledLaw(self.name, self._law, parameters)
 
     def _make(self) -> _core._Laws:
-        return self._law.make(self.name, self.parameters)
+        return self._law._make(self.name, self.parameters)
 
 
 def contact_law(stiffness: _Slope, damping: _Value = 0.0, memory: int = 0, tangential: typing.Sequence[int] = (),
@@ -139,7 +139,7 @@ def contact_law(stiffness: _Slope, damping: _Value = 0.0, memory: int = 0, tange
 
 def load_laws(path: str | os.PathLike[str]) -> dict[str, Law]:
     """Laws of a library that `dovetail_add_laws` has built, by their names. Loading runs code: trust the file."""
-    return {name: CompiledLaw(name, law, dict(law.parameters)) for name, law in _core._open_laws(path).items()}
+    return {name: CompiledLaw(name, law, dict(law._parameters)) for name, law in _core._open_laws(path).items()}
 
 
 class InPlace:
@@ -161,6 +161,6 @@ class InPlace:
     @property
     def notes(self) -> list[str]:
         """What is not booked."""
-        if self.law is None or self._made is None or not self._made.lacks_energies:
+        if self.law is None or self._made is None or not self._made._lacks_energies:
             return []
         return [f"contact law {self.law.name} gives no energies: what contacts store and lose is in the residual"]

@@ -5,18 +5,11 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/contact_step.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
+#include "scene_run.hpp"
 
 namespace dovetail::python {
 
 namespace {
-
-/// Held and let go of with the interpreter's lock.
-std::shared_ptr<py::function> withLock(py::function function) {
-  return {new py::function(std::move(function)), [](py::function* one) {
-            const py::gil_scoped_acquire lock;
-            delete one;
-          }};
-}
 
 /// Of this thread: used again unless arrays of an earlier step are still looked at.
 std::shared_ptr<Batch> room() {
@@ -84,8 +77,8 @@ CalledLaws::CalledLaws(std::string name, LawTraits law, py::function function, p
                        std::map<std::string, double> parameters)
     : name_("own law " + std::move(name)),
       law_(std::move(law)),
-      function_(withLock(std::move(function))),
-      stiffness_(withLock(std::move(stiffness))),
+      function_(python::held(std::move(function))),
+      stiffness_(python::held(std::move(stiffness))),
       parameters_(std::move(parameters)) {
   if (law_.memory < 0 || law_.memory > LawTraits::mostMemory)
     throw InputError("memory is " + std::to_string(law_.memory), name_,

@@ -69,7 +69,7 @@ private:
 
   std::string name_;
   LawTraits law_;
-  std::shared_ptr<py::function> function_, stiffness_;
+  std::shared_ptr<py::object> function_, stiffness_;
   std::map<std::string, double> parameters_;
   mutable std::atomic<bool> lacksEnergies_{false};
 };

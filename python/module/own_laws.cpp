@@ -82,7 +82,7 @@ void bindContacts(py::module_& m) {
 void bindOwnLaws(py::module_& m) {
   bindContacts(m);
   py::class_<Laws>(m, "_Laws")
-      .def_property_readonly("lacks_energies", &Laws::lacksEnergies, "Whether it has answered without energies.");
+      .def_property_readonly("_lacks_energies", &Laws::lacksEnergies, "Whether it has answered without energies.");
   m.def("_called_laws", &called);
   py::class_<InPlace>(m, "_LawsInPlace")
       .def(py::init([](const Laws& laws) {
@@ -92,8 +92,8 @@ void bindOwnLaws(py::module_& m) {
       .def("__exit__", &InPlace::exit);
   m.def("_without_contact", [](const scene::Scene& one) { return scene::withoutContact(one); });
   py::class_<dem::CompiledLaw>(m, "_CompiledLaw")
-      .def_readonly("parameters", &dem::CompiledLaw::defaults, "All that it knows, SI.")
-      .def("make", [](const dem::CompiledLaw& law, const std::string& name, const dem::LawParameters& parameters) {
+      .def_readonly("_parameters", &dem::CompiledLaw::defaults, "All that it knows, SI.")
+      .def("_make", [](const dem::CompiledLaw& law, const std::string& name, const dem::LawParameters& parameters) {
         return Laws{makeCompiled(name, law, parameters)};
       });
   m.def("_open_laws", [](const std::filesystem::path& file) { return openLaws(file).laws; });
