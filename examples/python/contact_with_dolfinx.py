@@ -58,7 +58,7 @@ scene = {
     "particles": [{"from": "list", "density": 1000,
                    "spheres": {"at": places + random.uniform(-0.01, 0.01, places.shape), "radius": 0.05,
                                "velocity": [0.2, 0, -2]}}],
-    "steps": {"dt": "5e-5 s"},
+    "steps": {"dt": "2e-5 s"},
     "stages": [{"do": "run", "time": 1}],
 }
 run = dv.Run(scene, solids={"block": Block()})
@@ -74,7 +74,7 @@ for limit, owner in run.limits:
 # %%
 lost, strained = 0.0, 0.0
 print("time_s  lowest_grain_m  strain_energy_J  residual_J")
-for made in run.steps(4000, every=400):
+for made in run.steps(10000, every=1000):
     ledger = run.ledger
     lost, strained = max(lost, abs(ledger["residual"])), max(strained, ledger["block: own forces"])
     print(f"{run.time:.3f}   {run.grains.x[:, 2].min():.4f}          {ledger['block: own forces']:.4f}           "

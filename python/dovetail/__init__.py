@@ -204,6 +204,6 @@ def resume(out: _Path, until: float | None = None, quiet: bool = False, contact_
 
 def check(scene: _Scene, folder: _Path | None = None, contact_law: Law | None = None, **settings: typing.Any) -> str:
     """Sizes, limits of the step, memory and time of a scene, as text."""
-    law = InPlace(contact_law)
+    law, arrays = InPlace(contact_law), Folder()
     with law():
-        return _core.check_scene(law.scene(_read(scene, folder, settings, Folder())))
+        return _core.check_scene(law.scene(_read(scene, folder, settings, arrays)))

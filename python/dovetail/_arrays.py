@@ -27,7 +27,7 @@ def _refuse(problem: str, where: str, remedy: str) -> typing.NoReturn:
 
 def _numbers(value: typing.Any, where: str) -> _Array:
     try:
-        return np.ascontiguousarray(value, dtype=float)
+        return np.asarray(value, dtype=float, order="C")
     except (TypeError, ValueError) as error:
         _refuse(f"these are no numbers ({error})", where, "give an array of floats, in SI units")
 
@@ -36,7 +36,7 @@ def _integers(value: typing.Any, where: str) -> _Array:
     array = np.asarray(value)
     if array.dtype.kind not in "iu":
         _refuse(f"these are no integers but {array.dtype}", where, "give an array of integers")
-    return np.ascontiguousarray(array, dtype=np.int64)
+    return np.asarray(array, dtype=np.int64, order="C")
 
 
 def _require_keys(arrays: _Dict, known: tuple[str, ...], needed: tuple[str, ...], where: str) -> None:

@@ -27,10 +27,14 @@ struct Own {
   template <class T>
   T get(const char* what, const char* remedy) const {
     if (!has(what)) throw InputError(std::string("it has no ") + what, "solid \"" + name + "\"", remedy);
+    const char* const told = "these are not the numbers that they should be";
     try {
       return py::cast<T>(object->attr(what));
     } catch (const py::cast_error&) {
-      throw InputError("these are not the numbers that they should be", where(what), remedy);
+      throw InputError(told, where(what), remedy);
+    } catch (py::error_already_set& error) {
+      if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError)) throw;
+      throw InputError(told, where(what), remedy);
     }
   }
   std::vector<double> numbers(const char* what, std::size_t n, const char* remedy) const {
@@ -101,8 +105,10 @@ private:
     const double length = part * norm(box.upper - box.lower);
     const std::vector<Vec3> rest(nodes.X.size());
     const auto free = [&](std::size_t k) { return ((nodes.fixed[k / 3] >> (k % 3)) & 1U) == 0; };
+    double stiffest = 0.0;  // N/m so far: what is far less is the round-off of the differences
     const auto stiffness = [&](std::span<const double> x, std::span<double> y) {
-      double largest = 0.0;
+      constexpr double roundOff = 1e-7;
+      double largest = 0.0, pull = 0.0;
       for (std::size_t k = 0; k < x.size(); ++k) largest = std::max(largest, free(k) ? std::abs(x[k]) : 0.0);
       std::ranges::fill(y, 0.0);
       if (largest == 0.0) return;
@@ -113,7 +119,11 @@ private:
       }
       const std::vector<Vec3> a = forcesAt(now_, ahead, rest), b = forcesAt(now_, behind, rest);
       for (std::size_t k = 0; k < y.size(); ++k)
-        if (free(k)) y[k] = 0.5 * largest / length * (b[k / 3] - a[k / 3])[static_cast<int>(k % 3)];
+        if (free(k))
+          pull =
+              std::max(pull, std::abs(y[k] = 0.5 * largest / length * (b[k / 3] - a[k / 3])[static_cast<int>(k % 3)]));
+      stiffest = std::max(stiffest, pull / largest);
+      if (pull <= roundOff * stiffest * largest) std::ranges::fill(y, 0.0);
     };
     const auto times = [&](double power) {
       return [&, power](std::span<const double> x, std::span<double> y) {

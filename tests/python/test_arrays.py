@@ -124,7 +124,7 @@ class Folders(unittest.TestCase):
 
 class Meshes(unittest.TestCase):
     solid = {"name": "beam", "supports": [{"on": "end"}],
-             "sets": [{"name": "end", "of": "nodes", "in": "plane", "point": [0, 0, 0], "normal": [1, 0, 0]}],
+             "sets": [{"name": "end", "place": "plane", "point": [0, 0, 0], "normal": [1, 0, 0]}],
              "material": {"law": "St-Venant-Kirchhoff", "youngs_modulus": 1e6, "poisson_ratio": 0.3, "density": 1000}}
     rest = {"gravity": [0, 0, -9.81], "steps": {"dt": 1e-4}, "stages": [{"do": "run", "time": 0.1}]}
 
@@ -146,7 +146,7 @@ class Meshes(unittest.TestCase):
                              ({"shape": "tet4"}, r"rows of 4 numbers \[solids.0.file.elements\]"),
                              ({"elements": elements + 1}, "names number 12 of 12"),
                              ({"elements": elements.astype(float)}, "no integers but float64"),
-                             ({"elements": elements[:, ::-1]}, "element"),
+                             ({"elements": elements[:, [4, 5, 6, 7, 0, 1, 2, 3]]}, "element"),
                              ({"nodes": None}, '"nodes" is missing'),
                              ({"node": nodes}, 'write "nodes"')):
             file = {"nodes": nodes, "elements": elements, "shape": "hex8", **change}

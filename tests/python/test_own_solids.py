@@ -166,7 +166,7 @@ class OnTheSurface(unittest.TestCase):
         for change, told in (({"X": None}, 'no X .solid "net"'), ({"X": np.zeros((0, 3))}, "no nodes"),
                              ({"X": np.zeros((3, 2))}, "shape is"), ({"mass": 0.0}, "node 0 has no mass"),
                              ({"mass": np.ones(5)}, "5 numbers for 121 nodes"),
-                             ({"faces": faces + 2}, "names number 122 of 121"), ({"faces": faces[:, :2]}, "no faces"),
+                             ({"faces": faces + 2}, "names number 121 of 121"), ({"faces": faces[:, :2]}, "no faces"),
                              ({"faces": None}, "has no faces"), ({"faces": 0.5 * faces}, "integers"),
                              ({"critical_step": -1.0}, "not > 0"), ({"held": [121]}, "121"),
                              ({"forces": lambda t, u, v: u[1:]}, r"shape is \(120, 3\).*forces"),
@@ -246,7 +246,7 @@ class InAnOverlap(unittest.TestCase):
                              ({"overlap": {"constraint": "multiplier", "penalty": 1.0}}, "multiplier has none"),
                              ({"overlap": {"constraint": "glue"}}, '"constraint": glue'),
                              ({"overlap": {"width": 1}}, '"width": 1'), ({"cells": None}, "no cells"),
-                             ({"cells": Springs().cells[:, ::-1]}, "element 0"),
+                             ({"cells": Springs().cells[:, [4, 5, 6, 7, 0, 1, 2, 3]]}, "elements 0, 1"),
                              ({"grain_weight": [1.0]}, "1 numbers for 189 nodes")):
             springs = Springs()
             for name, value in change.items():
