@@ -73,9 +73,9 @@ public:
     if (!held_) throw InputError("these views are closed", "views", "open others by run.grains.views()");
     Particles& p = particles();
     const auto n = static_cast<py::ssize_t>(p.size());
-    if (field == "id") return readOnly(py::array_t<std::int64_t>({n}, p.id.data(), lend(field).owner));
+    if (field == "id") return readOnly(py::array_t<std::int64_t>(n, p.id.data(), lend(field).owner));
     if (const auto found = numberFields.find(field); found != numberFields.end())
-      return readOnly(py::array_t<double>({n}, (p.*found->second).data(), lend(field).owner));
+      return readOnly(py::array_t<double>(n, (p.*found->second).data(), lend(field).owner));
     std::vector<Vec3>& all = p.*vectorFields.at(field);
     if (all.empty() && n > 0)
       throw InputError("grains of this run do not spin", "views", "give them laws that exert torques");
