@@ -49,8 +49,10 @@ struct Pull {
   std::string term;
 };
 
+/// The strongest one, with the sum of those of all terms.
 Pull strongestPull(const Model& model) {
   Pull most;
+  double sum = 0.0;
   for (const auto& term : model.terms) {
     std::vector<double> k(model.nodes.X.size(), 0.0);
     term->addStiffness(model.nodes, {model.t, 0.0}, k);
@@ -58,9 +60,10 @@ Pull strongestPull(const Model& model) {
     for (std::size_t n = 0; n < k.size(); ++n)
       if (model.nodes.fixed[n] != allComponents && k[n] > own.rate * model.nodes.mass[n])
         own = {k[n] / model.nodes.mass[n], static_cast<int>(n), term->name()};
-    own.rate += most.rate;
-    most = own.node < 0 ? most : own;
+    sum += own.rate;
+    if (own.rate > most.rate) most = own;
   }
+  most.rate = sum;
   return most;
 }
 

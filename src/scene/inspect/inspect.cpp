@@ -87,11 +87,12 @@ void tell(const fs::path& file, std::ostream& out) {
   if (ending == ".h5") return inspectHdf5(file, out);
   if (ending == ".vtkhdf") return inspectProvenance(file, out);
   if (ending == ".state") return inspectState(file, out);
+  const bool isOurs = io::isOurs(file);
+  if (isOurs && ending == ".txt") return inspectText(file, out);
   if (inspectGrains(file, out)) return;
-  if (!io::isOurs(file))
+  if (!isOurs)
     throw InputError("this is no file of Dovetail's", file.string(),
                      "give a scene, a file that a run wrote, or one of spheres of another code");
-  if (ending == ".txt") return inspectText(file, out);
   out << "written by Dovetail\n";
 }
 
