@@ -78,8 +78,8 @@ class OnTheSurface(unittest.TestCase):
     def test_sub_steps(self):
         run = dv.Run(balls(per_macro_step=4), solids={"net": Net()})
         energy, momentum = losses(run, 2000)
-        self.assertLess(momentum, 1e-12)
-        self.assertLess(energy, 1e-3)
+        self.assertLess(momentum, 1e-13)
+        self.assertLess(energy, 1e-5)
 
     def test_states_go_on(self):
         one, other = (dv.Run(balls(), solids={"net": Net()}) for _ in range(2))
@@ -229,8 +229,8 @@ class InAnOverlap(unittest.TestCase):
         run = dv.Run(lattice(), solids={"springs": springs})
         before = run.kinetic_energy
         energy, momentum = losses(run, 2800, 200)
-        self.assertLess(momentum, 1e-12)
-        self.assertLess(energy, 1e-2)
+        self.assertLess(momentum, 1e-13)
+        self.assertLess(energy, 1e-4)
         ledger = run.ledger
         self.assertGreater((ledger["springs: kinetic"] + ledger["springs: own forces"]) / before, 0.4)
         return energy, momentum
