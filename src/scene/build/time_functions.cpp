@@ -132,7 +132,7 @@ StepOf stepOf(const coupling::CoupledRun& run) {
 }
 
 Travel travelOf(const TimeValue& displacement, const Scene& scene, const StepOf& stepNow) {
-  if (isConstant(displacement)) return {functionOf(displacement, scene), [](double) { return 0.0; }};
+  if (isConstant(displacement)) return {[u = displacement.number](double) { return u; }, [](double) { return 0.0; }};
   return travelOf(functionOf(displacement, scene), stepNow);
 }
 

@@ -247,7 +247,7 @@ Picture drawPicture(const fs::path& folder, const PictureOptions& options) {
 
 fs::path writePicture(const fs::path& folder, const PictureOptions& options, std::ostream& log) {
   const char* const ending = options.film ? ".gif" : ".png";
-  const fs::path file = options.file.empty() ? folder / (options.film ? "film.gif" : "picture.png") : options.file;
+  fs::path file = options.file.empty() ? folder / (options.film ? "film.gif" : "picture.png") : options.file;
   if (file.extension() != ending)
     throw InputError(options.film ? "films are GIF files" : "pictures are PNG files", file.string(),
                      std::string("give a name that ends in ") + ending);
