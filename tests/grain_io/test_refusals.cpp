@@ -1,6 +1,7 @@
 // Faults of files are refused with the file and the line, and nothing makes a reader do worse.
 #include <random>
 
+#include "../mutated.hpp"
 #include "samples.hpp"
 
 namespace dovetail::grain_io {
@@ -113,31 +114,6 @@ TEST(Refusals, NoFileAtAll) {
             std::string::npos);
 }
 
-/// One to four changes: a byte, a digit, a run left out or doubled, the end cut off.
-std::string mutated(std::string text, std::mt19937& random) {
-  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
-  for (std::size_t change = 0, changes = 1 + below(4); change < changes && text.size() > 2; ++change) {
-    const std::size_t at = below(text.size()), length = 1 + below(std::min<std::size_t>(40, text.size() - at));
-    switch (below(5)) {
-      case 0:
-        text[at] = static_cast<char>(below(256));
-        break;
-      case 1:
-        text[at] = "0123456789 \n-.e#"[below(16)];
-        break;
-      case 2:
-        text.erase(at, length);
-        break;
-      case 3:
-        text.insert(at, text.substr(below(text.size()), length));
-        break;
-      default:
-        text.resize(at);
-    }
-  }
-  return text;
-}
-
 void requireSound(const GrainFile& file) {
   ASSERT_GT(file.size(), 0u);
   for (std::size_t i = 0; i < file.size(); ++i) {
@@ -155,7 +131,7 @@ TEST(Refusals, ChangedFilesAreReadOrRefused) {
     if (!entry.is_regular_file()) continue;
     const std::string text = textOf(entry.path());
     for (int round = 0; round < 100; ++round) {
-      const test::Written file(mutated(text, random));
+      const test::Written file(dovetail::test::mutated(text, random));
       GrainFile grains;
       if (const std::string said = test::refusal([&] { grains = read(file.path()); }); !said.empty()) {
         ++refused;

@@ -9,6 +9,8 @@ import re
 import sys
 import tempfile
 
+from optional_packages import skips_without_packages
+
 os.environ["MPLBACKEND"] = "Agg"
 document = pathlib.Path(sys.argv[1])
 blocks = re.compile(r"^<!-- tested -->\n```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -16,15 +18,8 @@ text, names = document.read_text(), {}
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
     os.symlink(os.environ["DOVETAIL_SCENES"], "scenes")
-    try:
+    with skips_without_packages(document):
         for block in blocks.finditer(text):
             above = text.count("\n", 0, block.start(1))  # so that errors name the line of the document
             exec(compile("\n" * above + block[1], document, "exec"), names)
-    except ModuleNotFoundError as error:
-        if error.name.split(".")[0] in ("dovetail", "numpy"):
-            raise
-        print(f"{document.name} needs the Python package {error.name}, which is not here")
-        sys.exit(77)
-    finally:
-        os.chdir(document.parent)
 assert names, f"{document} has no block of Python to test"

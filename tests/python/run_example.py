@@ -9,21 +9,16 @@ import shutil
 import sys
 import tempfile
 
+from optional_packages import skips_without_packages
+
 os.environ["MPLBACKEND"] = "Agg"
 script = pathlib.Path(sys.argv[1]).resolve()
 assert f"({script.name})" in (script.parent / "README.md").read_text(), f"{script.name} has no row in README.md beside it"
 figures = pathlib.Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else None
 with tempfile.TemporaryDirectory() as folder:
     os.chdir(folder)
-    try:
+    with skips_without_packages(script):
         runpy.run_path(str(script), run_name="__main__")
-    except ModuleNotFoundError as error:
-        if error.name.split(".")[0] in ("dovetail", "numpy"):
-            raise
-        print(f"{script.name} needs the Python package {error.name}, which is not here")
-        sys.exit(77)
-    finally:
-        os.chdir(script.parent)
     if figures:
         figures.mkdir(parents=True, exist_ok=True)
     for picture in sorted(pathlib.Path(folder).glob("*.png")) if figures else []:

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "../mutated.hpp"
 #include "abaqus_deck.hpp"
 
 namespace dovetail::solid_io {
@@ -19,42 +20,13 @@ void expectMeshOrRefusal(const Reader& read, const std::string& text, std::size_
   }
 }
 
-/// One to four changes: a byte, a digit, a run left out or doubled, the end cut off.
-std::string mutated(const std::string& text, std::mt19937& random) {
-  std::string result = text;
-  const auto below = [&](std::size_t n) { return std::uniform_int_distribution<std::size_t>(0, n - 1)(random); };
-  for (std::size_t change = 0, changes = 1 + below(4); change < changes && result.size() > 2; ++change) {
-    const std::size_t at = below(result.size()), length = 1 + below(std::min<std::size_t>(40, result.size() - at));
-    switch (below(6)) {
-      case 0:
-        result[at] = static_cast<char>(below(256));
-        break;
-      case 1:
-        result[at] = static_cast<char>('0' + below(10));
-        break;
-      case 2:
-        result.erase(at, length);
-        break;
-      case 3:
-        result.insert(at, result.substr(below(result.size()), length));
-        break;
-      case 4:
-        result.resize(at);
-        break;
-      default:
-        result[at] = " ,\n-$*\"=e."[below(10)];
-    }
-  }
-  return result;
-}
-
 void fuzz(const Reader& read, const std::vector<std::string>& texts, int rounds) {
   std::mt19937 random(7);
   std::size_t taken = 0, refused = 0;
   for (const std::string& text : texts) {
     for (std::size_t end = 0; end < text.size(); end += 1 + text.size() / 200)
       expectMeshOrRefusal(read, text.substr(0, end), taken, refused);
-    for (int round = 0; round < rounds; ++round) expectMeshOrRefusal(read, mutated(text, random), taken, refused);
+    for (int round = 0; round < rounds; ++round) expectMeshOrRefusal(read, test::mutated(text, random), taken, refused);
   }
   EXPECT_GT(refused, 10 * texts.size());
   EXPECT_GT(taken, texts.size());

@@ -64,7 +64,7 @@ void requireFree(const dem::Model& grains, const std::vector<std::int64_t>& ids)
     if (i < 0) throw InputError("there is no grain " + std::to_string(id), "drive", "give ids of grains of the run");
     if (grains.particles.isOfSolid(static_cast<std::size_t>(i)))
       throw InputError("grain " + std::to_string(id) + " stands for a part of a solid", "drive",
-                       "move the solid by supports");
+                       "move a wall or a plane against it");
     if (!driven.insert(id).second)
       throw InputError("grain " + std::to_string(id) + " is driven already", "drive",
                        "leave it out, or put both motions into one");
