@@ -131,6 +131,24 @@ class OnTheSurface(unittest.TestCase):
         self.assertEqual(list(run.solids), ["block", "net"])
         self.assertLess(abs(run.ledger["residual"]), 1e-3)
 
+    def test_beside_what_else_a_run_has(self):
+        snow = {"name": "snow", "mesh": "points", "grid": {"spacing": 0.1}, "velocity": [0, 0, -1],
+                "points": {"from": "box", "box": [[0.3, 0.3, 0.06], [0.7, 0.7, 0.3]]},
+                "material": {"law": "neo-Hookean", "youngs_modulus": 1e4, "poisson_ratio": 0.3, "density": 50}}
+        stream = {"region": [[0.3, 0.3, 0.4], [0.7, 0.7, 0.7]], "radius": {"smallest": 0.03, "largest": 0.04},
+                  "density": 150, "number_per_second": 200, "velocity": [0, 0, -1]}
+        for beside in ({"periodic": {"box": [[0, 0, -1], [1.2, 1.2, 2]], "axes": ["x", "y"]}}, {"insertions": [stream]},
+                       {"particles": [], "solids": [snow], "couplings": [{"type": "points", "solid": "snow"}]}):
+            with self.subTest(next(iter(beside))):
+                run = dv.Run({**balls(), **beside}, solids={"net": Net()})
+                energy = run.kinetic_energy
+                for _ in run.steps(1500, 250):
+                    energy = max(energy, run.kinetic_energy)
+                totals = run.totals
+                self.assertGreater(run.ledger["net: own forces"], 1e-3)
+                self.assertLess(abs(run.ledger["residual"]), 1e-4 * energy)
+                self.assertLess(np.linalg.norm(totals["residual"]["linear"]), 1e-12 * totals["turned_over"])
+
     def test_velocities_at_the_start_and_cells(self):
         X, cells = brick((2, 2, 1), (1, 1, 0.2))
 
