@@ -7,6 +7,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/dem/model/loads.hpp"
+#include "dovetail/dem/model/model.hpp"
 
 namespace dovetail::python {
 
@@ -39,14 +40,33 @@ SceneRun::SceneRun(scene::Scene scene, const py::dict& solids)
   row_ = std::make_unique<scene::SeriesRow>(built_, scene_);
 }
 
-scene::Built& SceneRun::built() {
+void SceneRun::requireFree() const {
   if (steps_)
     throw InputError("a step is under way", "Run",
                      "wait for its end; in a force use what the function is given, its time, places and velocities");
   if (held_)
     throw InputError("views of its grains are open", "Run",
                      "end their `with` first; what you need of the run beside them, take before it");
+}
+
+scene::Built& SceneRun::built() {
+  requireFree();
+  if (built_.run->grains.open != 0.0) step([&] { dem::close(built_.run->grains); });
   return built_;
+}
+
+/// A part of a step, in which nobody else uses the run.
+void SceneRun::step(const std::function<void()>& part) {
+  steps_ = true;
+  try {
+    const py::gil_scoped_release free;
+    part();
+  } catch (...) {
+    broken_ = true;
+    steps_ = false;
+    throw;
+  }
+  steps_ = false;
 }
 
 scene::Built& SceneRun::hold() {
@@ -56,29 +76,25 @@ scene::Built& SceneRun::hold() {
 }
 
 void SceneRun::requireWhole() {
+  requireUnbroken();
   built();
+}
+
+void SceneRun::requireUnbroken() const {
+  requireFree();
   if (broken_)
     throw InputError("a step of this run was broken off", "Run", "load a state, or make the run anew from its scene");
 }
 
 void SceneRun::advance(std::int64_t steps) {
   using Clock = std::chrono::steady_clock;
-  requireWhole();
+  requireUnbroken();
   if (steps < 0) throw InputError("the number of steps is " + std::to_string(steps), "advance", "give 0 or more");
   std::int64_t atOnce = 1;
   while (steps > 0) {
     const std::int64_t next = std::min(steps, atOnce);
     const auto begin = Clock::now();
-    steps_ = true;
-    try {
-      const py::gil_scoped_release free;
-      built_.run->advance(next, next == steps);
-    } catch (...) {
-      broken_ = true;
-      steps_ = false;
-      throw;
-    }
-    steps_ = false;
+    step([&] { built_.run->advanceOpen(next, next == steps); });
     steps -= next;
     if (Clock::now() - begin < std::chrono::milliseconds(50)) atOnce *= 2;
     if (PyErr_CheckSignals() != 0) throw py::error_already_set();

@@ -39,9 +39,9 @@ public:
   void release() { held_ = false; }
 
   const scene::Scene& scene() const { return scene_; }
+  /// Ends the last step first: its second half kick is left open for the next one.
+  /// @throws InputError while a step is under way: from a callback, or from another thread; while it is held
   scene::Built& built();
-  /// @throws InputError while a step is under way: from a callback, or from another thread;
-  /// while it is held
   coupling::CoupledRun& run() { return *built().run; }
   /// Numbers of the grains by ascending id, without those that stand for points of solids.
   const std::vector<int>& grains();
@@ -49,6 +49,9 @@ public:
   const scene::SeriesRow& row() const { return *row_; }
 
 private:
+  void requireFree() const;
+  void requireUnbroken() const;
+  void step(const std::function<void()>& part);
   const std::vector<int>& grainsNow();
 
   scene::Scene scene_;

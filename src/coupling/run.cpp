@@ -104,6 +104,11 @@ void CoupledRun::start(double dt, const RunOptions& options) {
 }
 
 void CoupledRun::advance(std::int64_t macroSteps, bool withEnergies) {
+  advanceOpen(macroSteps, withEnergies);
+  dem::close(grains);
+}
+
+void CoupledRun::advanceOpen(std::int64_t macroSteps, bool withEnergies) {
   impl_->requireStarted("advance");
   if (macroSteps < 0) throw InputError("macro steps is " + std::to_string(macroSteps), "advance", "give 0 or more");
   for (std::int64_t w = 0; w < macroSteps; ++w) {
@@ -116,7 +121,6 @@ void CoupledRun::advance(std::int64_t macroSteps, bool withEnergies) {
     }
     if (dem::looksAtLimit(grains.steps / impl_->K())) impl_->lookAtLimit();
   }
-  dem::close(grains);
 }
 
 void CoupledRun::change(const std::function<void()>& act) {

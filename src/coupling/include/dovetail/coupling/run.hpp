@@ -121,6 +121,9 @@ public:
   /// @param withEnergies  false: there will be no ledger() at the end, which saves its energies
   /// @throws InputError if macroSteps is negative; NumericalError naming the particle, node or element that breaks down
   void advance(std::int64_t macroSteps = 1, bool withEnergies = true);
+  /// advance, but for the half kick at the end: the velocities of particles lag behind their positions by half a step
+  /// until dem::close(grains), which ledger() and save() call. Cheaper where steps are made one by one.
+  void advanceOpen(std::int64_t macroSteps = 1, bool withEnergies = true);
 
   /// Load step number `step` of `steps` of all solids, between macro steps: from equilibrium to equilibrium, with what
   /// was out of balance before the first one held back in proportion to the load steps to come, while loads and
