@@ -113,7 +113,7 @@ void SceneRun::addForce(const std::string& name, py::function function) {
     const std::vector<int>& which = grainsNow();
     const py::gil_scoped_acquire lock;
     const Numbers answer = py::cast<Numbers>((*call)(time, rowsOf(particles.x, which), rowsOf(particles.v, which)));
-    const std::vector<Vec3> forces = vectorsOf(answer, which.size(), name);
+    const Rows forces(answer, which.size(), name);
     for (std::size_t k = 0; k < which.size(); ++k) total[static_cast<std::size_t>(which[k])] += forces[k];
   };
   const dem::Particles& particles = run().grains.particles;

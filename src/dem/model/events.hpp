@@ -32,9 +32,9 @@ void updatePairs(Model& m);
 /// Means of velocities and spins before and after the kick that the forces of the step under way make, to second order
 /// of those whose path is given: with these the forces do their work in it. After all forces are known.
 struct MeanMotion {
-  std::vector<Vec3> v, omega;  ///< m/s, rad/s, per particle; omega is empty where particles do not spin
+  std::vector<Vec3> v, omega;  ///< m/s, rad/s, per particle; omega is empty where particles do not spin, or nobody asks
 };
-MeanMotion meanMotion(const Model& m, const Step& step);
+MeanMotion meanMotion(const Model& m, const Step& step, bool withSpins = true);
 
 /// Adds a particle to what was exchanged; its energy, J. Where velocities lag, what its forces will have given counts.
 double bookParticle(const Model& m, std::size_t i, Exchanged& exchanged);

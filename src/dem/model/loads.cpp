@@ -211,7 +211,7 @@ void ExternalForceTerm::addForces(Model& m, const Step& step) {
 
 /// Over the kick that these forces are part of, with the mean of the velocities before and after it.
 void ExternalForceTerm::book(Model& m, const Step& step) {
-  const MeanMotion mean = dem::meanMotion(m, step);
+  const MeanMotion mean = dem::meanMotion(m, step, false);
   m.rate.external += parallelSum(force_.size(), chunkSize, [&](std::size_t begin, std::size_t end) {
     double power = 0.0;
     for (std::size_t i = begin; i < end; ++i) power += dot(force_[i], mean.v[i]);
