@@ -53,6 +53,7 @@ configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/dovetailConfig.cmake.in
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/dovetailConfig.cmake" "${PROJECT_BINARY_DIR}/dovetailConfigVersion.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/FindSuiteSparse.cmake" "${CMAKE_CURRENT_LIST_DIR}/FindFcl.cmake"
+              "${CMAKE_CURRENT_LIST_DIR}/FindPetsc.cmake"
               "${CMAKE_CURRENT_LIST_DIR}/DovetailOwnLaws.cmake"
         DESTINATION "${package_folder}" COMPONENT development)
 

@@ -98,6 +98,16 @@ if(DOVETAIL_PYTHON)
   endif()
 endif()
 
+option(DOVETAIL_RANKS "Build the component ranks: multigrid for large solids by PETSc on MPI (links GPL parts of Debian's PETSc)" OFF)
+if(DOVETAIL_RANKS)
+  find_package(Petsc QUIET)
+  if(NOT Petsc_FOUND)
+    message(FATAL_ERROR "DOVETAIL_RANKS=ON but PETSc with real numbers and its MPI were not found. "
+                        "Install the Debian packages libpetsc-real-dev and libopenmpi-dev, or set DOVETAIL_RANKS=OFF.")
+  endif()
+  dovetail_record_package(Petsc)
+endif()
+
 if(DOVETAIL_TESTS)
   find_package(GTest REQUIRED)
   include(GoogleTest)

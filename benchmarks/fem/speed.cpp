@@ -11,6 +11,7 @@
 #include <cstring>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
@@ -24,6 +25,7 @@
 #include "dovetail/fem/solve/statics.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
+#include "dovetail/linalg/multigrid.hpp"
 #include "program/run.hpp"
 
 namespace {
@@ -160,22 +162,22 @@ void timeBeams() {
   for (const double tolerance : {1e-5, 1e-10}) timeBeam({10, 10, 150}, Formulation::standard, tolerance, 20);
 }
 
-/// A cube of n³ bricks of 1 m, E 1 MPa, ν 0.3, St Venant-Kirchhoff, clamped below and pressed by a tenth between rough
-/// platens, in one step.
-void timeCube(int n) {
+/// A cube of n³ bricks of 1 m, E 1 MPa, ν 0.3, St Venant-Kirchhoff, clamped below and pressed by a fraction of its
+/// height between rough platens, in one step.
+void timeCube(int n, double fraction, linalg::LinearMethod method) {
   const auto start = std::chrono::steady_clock::now();
   const SolidMesh mesh = boxOf(ElementShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
   Model model = makeModel(mesh);
   Solid& solid = model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0}))));
   model.constraints.hold(nodeSet(mesh, "z-"));
   model.constraints.hold(nodeSet(mesh, "z+"), componentX | componentY);
-  model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [](double t) { return -0.1 * t; });
-  const StaticReport report = solveStatics(
-      model, 1.0,
-      {.newton = {.relativeTolerance = 1e-6,
-                  .reuseContraction = 0.3,
-                  .linear = {.method = linalg::LinearMethod::conjugateGradients, .relativeTolerance = 1e-2}},
-       .firstStep = 1.0});
+  model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [fraction](double t) { return -fraction * t; });
+  const double tolerance = method == linalg::LinearMethod::multigrid ? 1e-5 : 1e-2;  // multigrid loosens it itself
+  const StaticReport report = solveStatics(model, 1.0,
+                                           {.newton = {.relativeTolerance = 1e-6,
+                                                       .reuseContraction = 0.3,
+                                                       .linear = {.method = method, .relativeTolerance = tolerance}},
+                                            .firstStep = 1.0});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   std::vector<Vec3> f(mesh.X.size());
   solid.addForces(model.nodes, {}, f);
@@ -184,10 +186,11 @@ void timeCube(int n) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::printf(
-      "cube %d threads %d: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, "
-      "force %.6e N, %.0f MB\n",
-      n, threads(), seconds, report.assemblySeconds, report.solverSeconds, static_cast<long long>(report.iterations),
-      static_cast<long long>(report.factorisations), force, static_cast<double>(usage.ru_maxrss) / 1024.0);
+      "cube %d threads %d %s: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, %lld linear "
+      "iterations, force %.6e N, %.0f MB\n",
+      n, threads(), report.solver.c_str(), seconds, report.assemblySeconds, report.solverSeconds,
+      static_cast<long long>(report.iterations), static_cast<long long>(report.factorisations),
+      static_cast<long long>(report.linearIterations), force, static_cast<double>(usage.ru_maxrss) / 1024.0);
 }
 
 /// Bytes per brick without the arrays of the nodes, after explicit forces on one and two threads, and after a tangent.
@@ -282,37 +285,49 @@ void timeLeavingOut() {
   }
 }
 
-/// One linear system of a cube that is pressed on one side: factorisation against iteration.
+/// One linear system of a cube that is pressed on one side, solved twice by each method up to the size that suits it.
+/// Levels of multigrid are made by the first solution.
 void timeSolvers() {
-  std::printf("%-10s %9s | direct: set-up, s  solution, s | conjugate gradients: set-up, s  solution, s\n", "cube",
-              "unknowns");
-  for (const int n : {8, 16, 24, 32}) {
+  struct Way {
+    linalg::LinearMethod method;
+    const char* name;
+    int largest;
+  };
+  std::vector<Way> ways{{linalg::LinearMethod::direct, "direct", 32},
+                        {linalg::LinearMethod::conjugateGradients, "conjugate gradients", 32}};
+  if (linalg::Multigrid::available()) ways.push_back({linalg::LinearMethod::multigrid, "multigrid", 69});
+  std::printf("%-10s %9s  %-20s %10s %19s %10s\n", "cube", "unknowns", "method", "factor, s", "first solution, s",
+              "second, s");
+  for (const int n : {8, 16, 24, 32, 47, 69}) {
     const SolidMesh mesh = boxOf(ElementShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
     Model model = makeModel(mesh);
-    Solid& solid = model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 1000.0))));
+    model.add(makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.3, 1000.0))));
     model.constraints.hold(nodeSet(mesh, "z-"));
     const DofMap dofs(model.constraints, model.nodes);
-    linalg::MatrixPattern pattern(mesh.X.size());
-    solid.addPattern(pattern);
-    linalg::BlockMatrix K(std::move(pattern));
-    solid.addTangent(model.nodes, {}, K);
+    linalg::BlockMatrix K = zeroTangent(model);
+    model.terms[0]->addTangent(model.nodes, {}, K);
     std::vector<Vec3> load(mesh.X.size());
     for (const int node : nodeSet(mesh, "z+")) load[static_cast<std::size_t>(node)] = {1.0, 0.0, -2.0};
     std::vector<double> r(dofs.size()), x(dofs.size());
     dofs.reduce(load, r);
-    double seconds[4];
-    for (const linalg::LinearMethod method : {linalg::LinearMethod::direct, linalg::LinearMethod::conjugateGradients}) {
-      LinearSolver solver(dofs, {.method = method});
-      double* const times = seconds + (method == linalg::LinearMethod::direct ? 0 : 2);
-      const auto start = std::chrono::steady_clock::now();
+    for (const Way& way : ways) {
+      if (n > way.largest) continue;
+      LinearSolver solver(dofs, {.method = way.method}, &model.nodes);
+      double seconds[3];
+      auto start = std::chrono::steady_clock::now();
+      const auto lap = [&] {
+        const auto last = std::exchange(start, std::chrono::steady_clock::now());
+        return std::chrono::duration<double>(start - last).count();
+      };
       if (!solver.factor(K, true)) std::printf("the matrix is singular\n");
-      const auto middle = std::chrono::steady_clock::now();
-      solver.solve(r, x);
-      times[0] = std::chrono::duration<double>(middle - start).count();
-      times[1] = std::chrono::duration<double>(std::chrono::steady_clock::now() - middle).count();
+      seconds[0] = lap();
+      for (int k = 1; k < 3; ++k) solver.solve(r, x), seconds[k] = lap();
+      std::printf("%2dx%2dx%2d   %9zu  %-20s %10.3f %19.3f %10.4f", n, n, n, dofs.size(), way.name, seconds[0],
+                  seconds[1], seconds[2]);
+      if (solver.iterations() > 0)
+        std::printf("  %lld iterations each", static_cast<long long>(solver.iterations() / 2));
+      std::printf("\n");
     }
-    std::printf("%2dx%2dx%2d   %9zu | %18.3f %11.4f | %31.3f %11.3f\n", n, n, n, dofs.size(), seconds[0], seconds[1],
-                seconds[2], seconds[3]);
   }
 }
 
@@ -321,20 +336,25 @@ void timeSolvers() {
 int main(int argc, char** argv) {
   int threadCount = 2;
   std::optional<int> cube;
-  bool beams = false, elements = false, memory = false, leavingOut = false, solvers = false;
+  double press = 0.1;
+  bool beams = false, elements = false, memory = false, leavingOut = false, solvers = false, multigrid = false;
   program::Options options("fem_speed", "Times the solid engine: all parts, or those that are named.");
   options.integer("--threads N", threadCount, 1, 1024, "of elements and cubes");
   options.flag("--beams", beams, "statics of beams, one thread");
-  options.integer("--cube N", cube, 1, 1000, "explicit steps of a cube of N elements each way");
+  options.integer("--cube N", cube, 1, 1000, "a cube of N elements each way, pressed in one step");
+  options.number("--press F", press, program::positive("a fraction above 0, up to 0.5", 0.5),
+                 "fraction of its height that the cube is pressed by");
+  options.flag("--multigrid", multigrid, "the cube by multigrid in place of conjugate gradients");
   options.flag("--elements", elements, "internal forces and stiffness, by element");
   options.flag("--memory", memory, "bytes per element");
   options.flag("--leaving-out", leavingOut, "what parts of a step cost");
-  options.flag("--solvers", solvers, "factors beside conjugate gradients");
+  options.flag("--solvers", solvers, "linear systems by factors, conjugate gradients and multigrid");
   return program::runProgram(options, argc, argv, [&] {
     const bool all = !beams && !cube && !elements && !memory && !leavingOut && !solvers;
     if (elements || all) timeElements(threadCount);
     setThreads(threadCount);
-    if (cube) timeCube(*cube);
+    if (cube)
+      timeCube(*cube, press, multigrid ? linalg::LinearMethod::multigrid : linalg::LinearMethod::conjugateGradients);
     setThreads(1);
     if (beams || all) {
       std::printf("one thread, %s\n", linalg::SparseCholesky::name());

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "dovetail/linalg/multigrid.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "refusal.hpp"
 #include "scene_parts.hpp"
@@ -157,6 +158,14 @@ TEST(SceneLinearSolvers, AreToldAndRefusedWhereNothingIsSolved) {
   const std::string text = told(R"("stepping": "implicit", "linear_solver": "conjugate-gradients")");
   EXPECT_NE(text.find("Solid \"cube\" is solved by conjugate gradients."), std::string::npos) << text;
   EXPECT_EQ(told(R"("stepping": "implicit")").find("gradients"), std::string::npos);
+  if (!linalg::Multigrid::available()) {
+    try {
+      told(R"("linear_solver": "multigrid", "stepping": "implicit")");
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("DOVETAIL_RANKS=ON"), std::string::npos) << error.what();
+    }
+  }
   try {
     told(R"("linear_solver": "direct", "stepping": "explicit")");
     ADD_FAILURE();

@@ -28,7 +28,7 @@ ImplicitStep::ImplicitStep(Model& model, const DofMap& dofs, ModelMass& mass, co
       mass_(mass),
       options_(options),
       profile_(profile),
-      solver_(dofs, options.linear),
+      solver_(dofs, options.linear, &model.nodes),
       matrix_(zeroTangent(model)),
       start_(model),
       end_(model),
@@ -199,10 +199,10 @@ void ImplicitStep::addMeanTangents() {
     if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, atEnd(), matrix_);
 }
 
-bool ImplicitStep::direct() {
+bool ImplicitStep::direct(double loosest) {
   const Profile::Stage stage(profile_, "solution");
   startCorrection_ = correction_;
-  solver_.solve(residual_, increment_);
+  solver_.solve(residual_, increment_, loosest);
   return true;
 }
 

@@ -83,7 +83,7 @@ private:
   double tolerance() const override { return tolerance_; }
   bool factored() const override { return solver_.factored() && factoredStep_ == h_; }
   bool factor(bool exact) override;
-  bool direct() override;
+  bool direct(double loosest) override;
   double slope() const override { return innerProduct(residual_, increment_); }
   void moveTo(double fraction) override;
 

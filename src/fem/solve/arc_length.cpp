@@ -92,7 +92,7 @@ public:
   double tolerance() const override { return equilibrium_.tolerance(); }
   bool factored() const override { return false; }
   bool factor(bool) override { return findRate(t_); }
-  bool direct() override;
+  bool direct(double loosest) override;
   double slope() const override { return 0.0; }
   void moveTo(double fraction) override {
     for (std::size_t n = 0; n < moved_.size(); ++n) moved_[n] = movedBefore_[n] + fraction * increment_[n];
@@ -159,7 +159,7 @@ double PathStep::change(std::span<const Vec3> way) const {
 }
 
 /// K⁻¹ r + δt rate.
-bool PathStep::direct() {
+bool PathStep::direct(double) {
   std::vector<double> step(equilibrium_.dofs().size());
   equilibrium_.solve(equilibrium_.residual(), step);
   movedBefore_ = moved_;
@@ -183,9 +183,9 @@ void validate(const ArcLengthOptions& options, const Model& model) {
     throw InputError(
         "there is no component " + std::to_string(options.component) + " of node " + std::to_string(options.node),
         "ArcLengthOptions", "give a node of the model and 0, 1 or 2");
-  if (options.newton.linear.method == linalg::LinearMethod::conjugateGradients)
-    throw InputError("conjugate gradients cannot pass limit points", "ArcLengthOptions",
-                     "use linalg::LinearMethod::direct");
+  if (options.newton.linear.method == linalg::LinearMethod::conjugateGradients ||
+      options.newton.linear.method == linalg::LinearMethod::multigrid)
+    throw InputError("iterations cannot pass limit points", "ArcLengthOptions", "use linalg::LinearMethod::direct");
 }
 
 /// A trial of the next point of a path: as far as the length says, or at tEnd if that is nearer.

@@ -84,7 +84,7 @@ double Balance::findForces() {
 
 Equilibrium::Equilibrium(Model& model, const NewtonOptions& options)
     : Balance(model, options.relativeTolerance, options.absoluteTolerance),
-      solver_(dofs(), options.linear),
+      solver_(dofs(), options.linear, &model.nodes),
       K_(zeroTangent(model)),
       increment_(dofs().size()),
       part_(dofs().size()) {
@@ -105,15 +105,15 @@ bool Equilibrium::factor(bool) {
   return done;
 }
 
-void Equilibrium::solve(std::span<const double> r, std::span<double> x) {
+void Equilibrium::solve(std::span<const double> r, std::span<double> x, double loosest) {
   const auto start = Clock::now();
-  solver_.solve(r, x);
+  solver_.solve(r, x, loosest);
   solverSeconds_ += since(start);
 }
 
-bool Equilibrium::direct() {
+bool Equilibrium::direct(double loosest) {
   start_ = model().nodes.u;
-  solve(residual(), increment_);
+  solve(residual(), increment_, loosest);
   if (mixing_) mixing_->better(increment_);
   return true;
 }
@@ -147,6 +147,7 @@ void Equilibrium::describe(StaticReport& report) const {
   Balance::describe(report);
   report.factorisations = solver_.factorisations();
   report.solver = solver_.method();
+  report.linearIterations = solver_.iterations();
   report.solverSeconds = solverSeconds_;
 }
 

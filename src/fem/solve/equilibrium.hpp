@@ -68,14 +68,14 @@ public:
   double tolerance() const override { return zero(); }
   bool factored() const override { return solver_.factored(); }
   bool factor(bool exact = true) override;
-  bool direct() override;
+  bool direct(double loosest) override;
   double slope() const override { return innerProduct(residual(), increment_); }
   void moveTo(double fraction) override;
 
   /// Moves prescribed components to the time aimed at and the free ones with them, by the tangent of the old state.
   /// @return false if that is singular
   bool predict();
-  void solve(std::span<const double> r, std::span<double> x);
+  void solve(std::span<const double> r, std::span<double> x, double loosest = 0.0);
   const linalg::BlockMatrix& stiffness() const { return K_; }
 
   void forget() override { solver_.drop(); }

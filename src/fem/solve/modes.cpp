@@ -26,7 +26,7 @@ public:
         dofs_(model.constraints, model.nodes),
         mass_(model, dofs_, options.massFraction),
         K_(zeroTangent(model)),
-        solver_(dofs_, options.linear),
+        solver_(dofs_, options.linear, &model.nodes),
         in_(model.nodes.X.size()),
         out_(in_.size()) {
     for (const auto& term : model.terms) {

@@ -83,6 +83,18 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// How well the linear system of an iteration is to be solved: by as much as the iteration before it shrank the
+/// residual, squared (Eisenstat & Walker 1996, SIAM J. Sci. Comput. 17, 16: choice 2), and not beyond what converges.
+double forcingTerm(double norm, double before, double tolerance) {
+  constexpr double most = 1e-2;
+  const double shrunk = before > 0.0 ? norm / before : 1.0;
+  return std::min(std::max(0.9 * shrunk * shrunk, 0.5 * tolerance / norm), most);
+}
+
+}  // namespace
+
 NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
   NewtonResult result;
   double norm = problem.evaluate(), before = 0.0;
@@ -106,8 +118,9 @@ NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
       sinceFactor = 0;
     }
     ++sinceFactor;
+    const double loosest = forcingTerm(norm, before, result.tolerance);
     before = norm;
-    if (!problem.direct()) return stop("the arc does not intersect the path");
+    if (!problem.direct(loosest)) return stop("the arc does not intersect the path");
     const double slope = problem.slope();
     problem.moveTo(1.0);
     norm = problem.evaluate();

@@ -25,8 +25,9 @@ public:
   /// @param exact  even if the iteration would be cheaper with an approximation
   /// @return false if the matrix is singular or not finite
   virtual bool factor(bool exact) = 0;
-  /// Finds the increment from the present state. @return false if there is none
-  virtual bool direct() = 0;
+  /// Finds the increment from the present state. @param loosest  relative residual of the linear system that is enough
+  /// @return false if there is none
+  virtual bool direct(double loosest) = 0;
   /// residual · increment at the present state.
   virtual double slope() const = 0;
   /// To the fraction of the increment, from the state that direct() met.

@@ -14,7 +14,9 @@ std::ostream& operator<<(std::ostream& out, const StaticReport& report) {
   row("time reached", report.steps.empty() ? "none" : formatNumber(report.steps.back().t) + " s");
   row("steps", std::to_string(report.steps.size()) + ", " + std::to_string(report.cuts) + " cut");
   row("iterations", std::to_string(report.iterations));
-  row("factorisations", std::to_string(report.factorisations) + " by " + report.solver);
+  row("factorisations",
+      std::to_string(report.factorisations) + " by " + report.solver +
+          (report.linearIterations > 0 ? ", " + std::to_string(report.linearIterations) + " iterations" : ""));
   joules("stored before", report.storedBefore);
   joules("stored after", report.storedAfter);
   joules("work of loads", report.loadWork);

@@ -169,8 +169,8 @@ void requireStatics(const Scene& scene) {
       refuse("along an arc the load may fall again, and time never does",
              "leave \"time\" out: loads come on from 0 to what they are now, or \"control\"");
     for (const Solid& solid : scene.solids)
-      if (statics->arcLength && solid.linearSolver == 2)
-        refuse("conjugate gradients cannot pass limit points of the load",
+      if (statics->arcLength && solid.linearSolver >= 2)
+        refuse("iterations cannot pass limit points of the load",
                ("leave the \"linear_solver\" of \"" + solid.name + "\" out, or \"control\"").c_str());
     if (!anyGrains) continue;
     if (statics->time)
@@ -237,10 +237,11 @@ namespace {
 void foreseeSolvers(Built& built) {
   for (std::size_t s = 0; s < built.run->solids(); ++s) {
     const linalg::LinearForecast& forecast = built.forecasts.emplace_back(built.run->forecast(s));
-    if (forecast.method != linalg::LinearMethod::conjugateGradients) continue;
+    if (forecast.method == linalg::LinearMethod::direct) continue;
+    const bool multigrid = forecast.method == linalg::LinearMethod::multigrid;
     const auto gibibytes = [](double bytes) { return formatNumber(std::round(10.0 * bytes / 1073741824.0) / 10.0); };
     built.notes.push_back(
-        "Solid \"" + built.run->solid(s).name + "\" is solved by conjugate gradients" +
+        "Solid \"" + built.run->solid(s).name + "\" is solved by " + (multigrid ? "multigrid" : "conjugate gradients") +
         (forecast.factors > 0.0 ? ": its factors would take " + gibibytes(forecast.factors) + " GiB." : "."));
   }
 }

@@ -12,6 +12,7 @@
 #include "dovetail/fem/terms/gradient_energy.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/io/names.hpp"
+#include "dovetail/linalg/multigrid.hpp"
 #include "from_state.hpp"
 #include "keys/advice.hpp"
 #include "parts.hpp"
@@ -169,6 +170,8 @@ void requireSolver(const Solid& solid, const Scene& scene) {
   if (solid.linearSolver != 0 && !solid.implicitSteps && !hasStatics(scene))
     throw InputError("explicit steps solve no linear systems", "linear_solver",
                      "leave it out, or give \"stepping\": \"implicit\"");
+  if (static_cast<linalg::LinearMethod>(solid.linearSolver) == linalg::LinearMethod::multigrid)
+    linalg::Multigrid::require("linear_solver");
 }
 
 void add(Built& built, const Solid& solid, const Scene& scene) {

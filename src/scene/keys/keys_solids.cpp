@@ -217,7 +217,7 @@ void describe(Fields& f, Solid& v) {
   static constexpr const char* formulations[] = {"standard", "mean-dilatation", "enhanced", "assumed-stress",
                                                  "reduced"};
   static constexpr const char* steppings[] = {"explicit", "implicit"};
-  static constexpr const char* solvers[] = {"auto", "direct", "conjugate-gradients"};
+  static constexpr const char* solvers[] = {"auto", "direct", "conjugate-gradients", "multigrid"};
   f.where(v.where);
   f.text({"name", "for couplings, reports and files: letters, digits, '_', '-' and '.', with a letter first"}, v.name,
          true);
@@ -236,8 +236,7 @@ void describe(Fields& f, Solid& v) {
   f.choice({"stepping", "time integration"}, v.implicitSteps, steppings);
   f.choice({"linear_solver",
             "of implicit steps and load steps; auto: direct as long as the factors take no more than 2 GiB, else "
-            "conjugate gradients, "
-            "which take a fraction of the memory"},
+            "multigrid where the build has PETSc, or conjugate gradients: both take a fraction of the memory"},
            v.linearSolver, solvers);
   f.number({"consistent_mass",
             "fraction of the consistent mass, the rest is lumped; if not given, 1 with implicit steps, else 0; (1 - "

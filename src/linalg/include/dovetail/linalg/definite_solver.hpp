@@ -9,20 +9,23 @@
 namespace dovetail::linalg {
 
 enum class LinearMethod {
-  /// Direct as long as the factors are no larger than LinearOptions::largestFactors, else conjugate gradients.
+  /// Direct as long as the factors are no larger than LinearOptions::largestFactors, else multigrid where the build has
+  /// it and the caller knows rigid motions (fem::LinearSolver), else conjugate gradients.
   automatic,
   /// Cholesky (CHOLMOD if it was built in); LU (UMFPACK) if the matrix is indefinite or not symmetric.
   direct,
   /// Conjugate gradients preconditioned by an incomplete Cholesky factorisation: memory grows with the mesh and not
   /// faster. For symmetric positive definite matrices only.
-  conjugateGradients
+  conjugateGradients,
+  /// linalg::Multigrid: for matrices of solids, symmetric positive definite or not symmetric.
+  multigrid
 };
 
 struct LinearOptions {
   LinearMethod method = LinearMethod::automatic;
   double largestFactors = 2147483648.0;  ///< bytes; of Cholesky factors that are made without being asked for
-  double relativeTolerance = 1e-8;       ///< of conjugate gradients, on the residual
-  int maxIterations = 5000;              ///< of conjugate gradients
+  double relativeTolerance = 1e-8;       ///< of iterations, on the residual
+  int maxIterations = 5000;              ///< of a solve
 };
 
 /// What a linear method is going to take, by the pattern of the matrix alone.

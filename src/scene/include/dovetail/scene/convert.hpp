@@ -13,7 +13,7 @@ namespace dovetail::scene {
 struct ConvertOptions {
   std::optional<double> density;  ///< of grains, kg/m³, where the file has none
   grain_io::Units units = grain_io::Units::ofFile;
-  std::optional<std::int64_t> frame;  ///< of several, see grain_io::readLammps
+  std::optional<std::int64_t> frame{};  ///< of several, see grain_io::readLammps
 };
 
 /// Grains: from files of LAMMPS, LIGGGHTS, YADE and MercuryDPM by their content, from tables (.csv), frames (.vtu,

@@ -15,6 +15,10 @@
 
 namespace dovetail::fem {
 
+namespace detail {
+class NodeRows;
+}
+
 /// TᵀKT for the free components: the lower triangle by columns if symmetric, else all of it.
 class ReducedMatrix {
 public:
@@ -43,8 +47,10 @@ private:
 /// Keeps the pattern, the symbolic analysis and the factors over calls. Results do not depend on the number of threads.
 class LinearSolver {
 public:
-  /// @param dofs  must live as long as the solver
-  explicit LinearSolver(const DofMap& dofs, const linalg::LinearOptions& options = {});
+  /// @param nodes  of the model, whose rigid motions multigrid needs; null: never multigrid. They and dofs must live as
+  ///               long as the solver
+  /// @throws InputError for multigrid in a build without, and for tolerances or counts that are not positive
+  explicit LinearSolver(const DofMap& dofs, const linalg::LinearOptions& options = {}, const Nodes* nodes = nullptr);
   ~LinearSolver();
   LinearSolver(LinearSolver&&) noexcept;
 
@@ -55,12 +61,15 @@ public:
   /// @throws linalg::FactorMemoryError
   bool factor(const linalg::BlockMatrix& K, bool symmetric);
   /// x = (TᵀKT)⁻¹ r; the spans may be the same.
-  /// @throws NumericalError if conjugate gradients do not converge
-  void solve(std::span<const double> r, std::span<double> x);
+  /// @param loosest  relative residual that is enough for multigrid, if above LinearOptions::relativeTolerance
+  /// @throws NumericalError if iterations do not converge
+  void solve(std::span<const double> r, std::span<double> x, double loosest = 0.0);
 
   bool factored() const;
   /// Whether symmetric matrices are solved by iteration.
   bool iterates() const;
+  /// Whether all matrices are.
+  bool hasMultigrid() const;
   void drop();
 
   /// What the factors are made of: made anew from it they have the same digits.
@@ -68,6 +77,7 @@ public:
     int kind = 0;  ///< 0: none
     bool wasIndefinite = false;
     ReducedMatrix matrix;
+    std::shared_ptr<detail::NodeRows> rows;  ///< of multigrid, whose levels are made anew: digits to its tolerance
   };
   void save(ByteWriter& archive) const;
   /// What save() wrote, for matrices of the pattern of K; all is left alone.
@@ -81,7 +91,8 @@ public:
   double largestDiagonal() const;
   std::int64_t factorisations() const;
   std::int64_t solves() const;
-  /// "CHOLMOD", "UMFPACK", "conjugate gradients", …: what the last factor() took.
+  std::int64_t iterations() const;  ///< of multigrid, in all solves
+  /// "CHOLMOD", "UMFPACK", "conjugate gradients", "multigrid", …: what the last factor() took.
   std::string method() const;
 
 private:

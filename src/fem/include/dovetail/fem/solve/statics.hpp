@@ -73,7 +73,8 @@ struct StaticReport {
   double largestKinetic = 0.0;        ///< J, of any motion
   double damped = 0.0;                ///< J, by the damping of motions
   double seconds = 0.0, assemblySeconds = 0.0, solverSeconds = 0.0;
-  std::string solver;  ///< "CHOLMOD", …
+  std::string solver;                 ///< "CHOLMOD", …
+  std::int64_t linearIterations = 0;  ///< of multigrid
   /// stored + dissipated + damped − work, J: what the trapezoidal sums leave, second order in the step.
   double energyResidual() const { return storedAfter - storedBefore + dissipated + damped - loadWork - supportWork; }
 };
