@@ -44,8 +44,12 @@ TEST(RoundTrips, LammpsDataKeepsEveryBit) {
       EXPECT_TRUE(sameBits(read.position[i], grains.position[i]));
       EXPECT_TRUE(sameBits(read.radius[i], grains.radius[i]));
       EXPECT_TRUE(sameBits(read.density[i], grains.density[i]));
-      if (moves) EXPECT_TRUE(sameBits(read.velocity[i], grains.velocity[i]));
-      if (moves) EXPECT_TRUE(sameBits(read.spin[i], grains.spin[i]));
+      if (moves) {
+        EXPECT_TRUE(sameBits(read.velocity[i], grains.velocity[i]));
+      }
+      if (moves) {
+        EXPECT_TRUE(sameBits(read.spin[i], grains.spin[i]));
+      }
     }
     EXPECT_EQ(lammpsText(read), lammpsText(grains));
   }
@@ -63,7 +67,9 @@ TEST(RoundTrips, EverySampleThatIsReadKeepsItsSpheres) {
     EXPECT_EQ(second.position, first.position) << entry.path();
     EXPECT_EQ(second.radius, first.radius);
     EXPECT_EQ(second.density, first.density);
-    if (!second.spin.empty()) EXPECT_EQ(second.spin, first.spin);
+    if (!second.spin.empty()) {
+      EXPECT_EQ(second.spin, first.spin);
+    }
     ++count;
   }
   EXPECT_GE(count, 18u);

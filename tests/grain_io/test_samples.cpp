@@ -31,7 +31,9 @@ void expectKnown(const GrainFile& file) {
     const std::size_t i = placeOf(file, known[k], k);
     expectNear(file.position[i], known[k].x, 0.1);
     EXPECT_NEAR(file.radius[i], known[k].radius, 1e-17);
-    if (!file.density.empty()) EXPECT_NEAR(file.density[i], known[k].density, 1e-11);
+    if (!file.density.empty()) {
+      EXPECT_NEAR(file.density[i], known[k].density, 1e-11);
+    }
     if (!file.velocity.empty()) expectNear(file.velocity[i], known[k].v, 1.0);
     if (!file.spin.empty()) expectNear(file.spin[i], known[k].spin, 10.0);
   }
@@ -53,8 +55,12 @@ TEST(Samples, FilesOfLammpsHoldTheKnownSpheres) {
     expectNear(file.box->upper, {0.06, 0.06, 0.1}, 0.1);
     const bool isDump = std::string(name).ends_with(".dump");
     EXPECT_EQ(file.periodic.has_value(), isDump);
-    if (isDump) EXPECT_EQ((*file.periodic)[0], std::string(name) != "liggghts.dump");
-    if (isDump) EXPECT_FALSE((*file.periodic)[2]);
+    if (isDump) {
+      EXPECT_EQ((*file.periodic)[0], std::string(name) != "liggghts.dump");
+    }
+    if (isDump) {
+      EXPECT_FALSE((*file.periodic)[2]);
+    }
   }
 }
 

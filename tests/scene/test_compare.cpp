@@ -57,6 +57,17 @@ TEST(Compare, InterpolatesSeriesOfOtherTimes) {
   for (const Difference& one : found.differences) EXPECT_LT(one.relative(), 1e-15) << one.what;
 }
 
+TEST(Compare, RowsOfOneTimeMeetInTheirOrder) {
+  io::TimeSeries steps({"time_s", "tip_m"});
+  for (const double tip : {0.0, 0.1, 0.2}) steps.append({0.0, tip});
+  steps.append({1.0, 0.3});
+  EXPECT_TRUE(compared(steps, steps).within(0.0));
+  io::TimeSeries other({"time_s", "tip_m"});
+  for (const double tip : {0.0, 0.1, 0.25}) other.append({0.0, tip});
+  other.append({1.0, 0.3});
+  EXPECT_NEAR(of(compared(steps, other), "a tip_m").largest, 0.05, 1e-15);
+}
+
 TEST(Compare, ANumberAndNoneAreFarApart) {
   io::TimeSeries gone({"time_s", "ball_x_m"}), there = gone;
   gone.append({0.0, std::nan("")});

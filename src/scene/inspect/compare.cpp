@@ -67,13 +67,17 @@ private:
   static bool has(const io::TimeSeries& table, const std::string& column) {
     return std::find(table.names().begin(), table.names().end(), column) != table.names().end();
   }
-  /// Of each row of the first within the times of the second: the row that is not before it there.
+  /// Of each row of the first within the times of the second: the row that is not before it there. Rows of one time,
+  /// as load steps make them, meet in their order.
   void matchRows() {
     const auto times = a_.column("time_s"), others = b_.column("time_s");
     bool equal = times.size() == others.size();
     std::size_t outside = 0;
+    std::ptrdiff_t again = 0;
     for (std::size_t k = 0; k < times.size(); ++k) {
-      const auto after = std::lower_bound(others.begin(), others.end(), times[k]);
+      auto after = std::lower_bound(others.begin(), others.end(), times[k]);
+      again = k > 0 && times[k] == times[k - 1] ? again + 1 : 0;
+      for (std::ptrdiff_t n = 0; n < again && after + 1 != others.end() && after[1] == times[k]; ++n) ++after;
       if (after == others.end() || (after == others.begin() && *after != times[k])) {
         ++outside;
         continue;

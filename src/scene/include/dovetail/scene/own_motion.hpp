@@ -13,11 +13,11 @@ namespace dovetail::scene {
 
 /// Of a rigid whole, by functions of the run's time, s. Each is called a few times a step, by one thread.
 struct OwnPath {
-  std::function<Vec3(double)> displacement;  ///< m, of which counts what it changes from now on
-  std::function<Vec3(double)> velocity;      ///< m/s; this, a displacement or neither
-  std::function<double(double)> rate;        ///< rad/s, about `axis`; it may be empty
-  Vec3 axis;                                 ///< of any length
-  std::optional<Vec3> point;                 ///< on the axis, m; not given: that of the wall
+  std::function<Vec3(double)> displacement{};  ///< m, of which counts what it changes from now on
+  std::function<Vec3(double)> velocity{};      ///< m/s; this, a displacement or neither
+  std::function<double(double)> rate{};        ///< rad/s, about `axis`; it may be empty
+  Vec3 axis{};                                 ///< of any length
+  std::optional<Vec3> point{};                 ///< on the axis, m; not given: that of the wall
 };
 
 /// Gives a wall of a started run another motion from where it is now, in place of its path or servo.
