@@ -185,7 +185,8 @@ void validate(const ArcLengthOptions& options, const Model& model) {
         "ArcLengthOptions", "give a node of the model and 0, 1 or 2");
   if (options.newton.linear.method == linalg::LinearMethod::conjugateGradients ||
       options.newton.linear.method == linalg::LinearMethod::multigrid)
-    throw InputError("iterations cannot pass limit points", "ArcLengthOptions", "use linalg::LinearMethod::direct");
+    throw InputError("conjugate gradients and multigrid cannot pass limit points", "ArcLengthOptions",
+                     "use linalg::LinearMethod::direct");
 }
 
 /// A trial of the next point of a path: as far as the length says, or at tEnd if that is nearer.

@@ -170,7 +170,7 @@ void requireStatics(const Scene& scene) {
              "leave \"time\" out: loads come on from 0 to what they are now, or \"control\"");
     for (const Solid& solid : scene.solids)
       if (statics->arcLength && solid.linearSolver >= 2)
-        refuse("iterations cannot pass limit points of the load",
+        refuse("conjugate gradients and multigrid cannot pass limit points of the load",
                ("leave the \"linear_solver\" of \"" + solid.name + "\" out, or \"control\"").c_str());
     if (!anyGrains) continue;
     if (statics->time)
