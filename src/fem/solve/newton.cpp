@@ -81,10 +81,6 @@ private:
   std::vector<Vec3> u_, v_;
 };
 
-}  // namespace
-
-namespace {
-
 /// How well the linear system of an iteration is to be solved: by as much as the iteration before it shrank the
 /// residual, squared (Eisenstat & Walker 1996, SIAM J. Sci. Comput. 17, 16: choice 2), and not beyond what converges.
 double forcingTerm(double norm, double before, double tolerance) {
