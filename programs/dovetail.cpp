@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/nearest.hpp"
+#include "dovetail/hierarchical/farm.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "program/options.hpp"
 #include "program/run.hpp"
@@ -49,5 +50,5 @@ bool act(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return program::runProgram("dovetail", [&] { return act(argc, argv); });
+  return program::runProgram("dovetail", [&] { return hierarchical::serveFarm() || act(argc, argv); });
 }

@@ -37,6 +37,7 @@ FigureRows bandsOfCells(bool quick);
 FigureRows biaxial(bool quick);
 FigureRows column(bool quick);
 FigureRows explicitBiaxial(bool quick);
+FigureRows farm(bool quick);
 FigureRows lz19Cell(bool quick);
 FigureRows mixedLayer(bool quick);
 FigureRows operators(bool quick);

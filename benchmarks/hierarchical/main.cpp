@@ -3,6 +3,7 @@
 #include <ctime>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/hierarchical/farm.hpp"
 #include "figure.hpp"
 #include "program/options.hpp"
 #include "program/run.hpp"
@@ -16,6 +17,7 @@ const std::vector<Figure> figures{
     {"square-arrays", "Liu 2018, Fig. 2.4", squareArrays},
     {"lz19-cell", "Liang & Zhao 2019, biaxial compression", lz19Cell},
     {"operators", "Desrues et al. 2019, Table 1", operators},
+    {"farm", "Desrues et al. 2019, Table 3", farm},
     {"simple-shear", "Liu 2018, Figs 2.7, 2.10", simpleShear},
     {"servo", "Liu 2018, eqs 2.33, 2.34, Table 2.3", servoFrame},
     {"mixed-layer", "Liu 2018, sec. 2.6, Fig. 2.11", mixedLayer},
@@ -88,6 +90,6 @@ int main(int argc, char** argv) {
     program::Options o("cell_figures", "Published figures on cells of grains, beside the results of this program.");
     o.flag("--quick", quick, "fewer packings, smaller solids");
     o.word("--only", only, "all|" + names(), "one figure");
-    return !o.parse(argc, argv) || run(quick, only);
+    return hierarchical::serveFarm() || !o.parse(argc, argv) || run(quick, only);
   });
 }

@@ -2,6 +2,7 @@
 
 #include <petscsys.h>
 
+#include <cstdlib>
 #include <new>
 #include <string>
 
@@ -34,6 +35,24 @@ private:
 };
 
 }  // namespace
+
+bool launched() {
+  for (const char* const set : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
+    if (std::getenv(set) != nullptr) return true;
+  return false;
+}
+
+int rank() {
+  int rank = 0;
+  require(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "asking for the rank");
+  return rank;
+}
+
+int count() {
+  int count = 1;
+  require(MPI_Comm_size(MPI_COMM_WORLD, &count), "counting the ranks");
+  return count;
+}
 
 void start() { static const Session session; }
 

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "dovetail/core/error.hpp"
@@ -12,6 +10,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/fem/laws/field_history.hpp"
 #include "dovetail/fem/laws/point_material.hpp"
+#include "dovetail/fem/laws/point_tasks.hpp"
 #include "law_of_field.hpp"
 
 namespace dovetail::fem {
@@ -127,81 +126,41 @@ public:
   void open(std::span<const PointPlace> places) override {
     places_.assign(places.begin(), places.end());
     points_ = newPoints();
-    seconds_.assign(places.size(), 0.0);
   }
-
-  void evaluate(const FieldRequest& request) override {
-    const std::vector<std::size_t> order = longestFirst();
-    parallelTasks(order.size(), [&](std::size_t task) { evaluate(order[task], request); });
-  }
-
-  void commit() override {
-    for (const auto& point : points_) point->commit();
-  }
-  void revert() override {
-    for (const auto& point : points_) point->revert();
-  }
+  void evaluate(const FieldRequest& request) override { points_.evaluate(request); }
+  void commit() override { points_.commit(); }
+  void revert() override { points_.revert(); }
   void save(ByteWriter& archive) const override {
     archive(static_cast<std::uint64_t>(points_.size()));
-    for (const auto& point : points_) point->save(archive);
+    for (std::size_t p = 0; p < points_.size(); ++p) points_[p].save(archive);
   }
   void load(ByteReader& archive) override {
-    std::uint64_t count = 0;
-    archive(count);
-    if (count != points_.size())
-      throw InputError(
-          "the state has " + std::to_string(count) + " points, the solid " + std::to_string(points_.size()), name(),
-          "load it into the model that wrote it");
-    std::vector<std::unique_ptr<FieldPoint>> loaded = newPoints();
-    for (const auto& point : loaded) point->load(archive);
+    readPointCount(archive, points_.size(), name());
+    PointTasks loaded = newPoints();
+    for (std::size_t p = 0; p < loaded.size(); ++p) loaded[p].load(archive);
     points_ = std::move(loaded);
   }
 
-  const FieldPoint* point(std::size_t p) const override { return points_.at(p).get(); }
+  const FieldPoint* point(std::size_t p) const override { return &points_[p]; }
+  std::vector<double> seconds() const override { return {points_.seconds().begin(), points_.seconds().end()}; }
 
 private:
-  std::vector<std::unique_ptr<FieldPoint>> newPoints() const {
-    std::vector<std::unique_ptr<FieldPoint>> points;
+  PointTasks newPoints() const {
+    PointTasks points;
     for (const PointPlace& place : places_) {
-      points.push_back(make_(place));
-      if (points.back() == nullptr)
+      std::unique_ptr<FieldPoint> point = make_(place);
+      if (point == nullptr)
         throw InputError("there is no point of element " + std::to_string(place.element), name(),
                          "let makePoint return one for every place");
+      points.add(std::move(point));
     }
     return points;
-  }
-
-  std::vector<std::size_t> longestFirst() const {
-    std::vector<std::size_t> order(points_.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return seconds_[a] > seconds_[b]; });
-    return order;
-  }
-
-  void evaluate(std::size_t p, const FieldRequest& request) {
-    const auto start = std::chrono::steady_clock::now();
-    const bool withTangent = !request.tangent.empty();
-    const std::span<const double, 9> F(request.F.subspan(9 * p, 9));
-    const PointAnswer answer{std::span<double, 9>(request.P.subspan(9 * p, 9)),
-                             withTangent ? request.tangent.subspan(81 * p, 81) : std::span<double>{}, request.energy[p],
-                             request.dissipated[p], request.withEnergy};
-    try {
-      if (request.willCommit && request.moved)
-        points_[p]->advance(F, request.dt, answer);
-      else
-        points_[p]->evaluate(F, request.dt, request.moved, answer);
-    } catch (const std::exception& error) {
-      request.reason[p] = error.what();
-    }
-    seconds_[p] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
 
   FieldTraits traits_;
   Make make_;
   std::vector<PointPlace> places_;
-  std::vector<std::unique_ptr<FieldPoint>> points_;
-  std::vector<double> seconds_;  // that each took the last time
+  PointTasks points_;
 };
 
 }  // namespace

@@ -145,22 +145,19 @@ CellState readState(const Rve& cell, ByteReader& archive, const std::string& whe
 
 CellState readState(const Rve& cell, ByteReader& archive) { return readState(cell, archive, "state of a cell"); }
 
-void writeSamples(const std::filesystem::path& path, std::span<const Rve> cells) {
-  ByteWriter archive;
+void writeCells(std::span<const Rve> cells, ByteWriter& archive, const std::string& where) {
   for (const Rve& cell : cells) {
     if (!cell.frame.empty())
-      throw InputError("a cell has a frame", path.string(), "write the periodic cell, and cut it after reading");
+      throw InputError("a cell has a frame", where, "write the periodic cell, and cut it after reading");
     archive(madeOf(cell));
     writeState(cell, cell.state, archive);
   }
-  writeChecked(path, samplesKind, archive.bytes());
 }
 
-std::vector<Rve> readSamples(const std::filesystem::path& path) {
-  ByteReader archive(readChecked(path, samplesKind));
+std::vector<Rve> readCells(ByteReader& archive, const std::string& from) {
   std::vector<Rve> cells;
   while (!archive.atEnd()) {
-    const std::string where = "cell " + std::to_string(cells.size()) + " of " + path.string();
+    const std::string where = "cell " + std::to_string(cells.size()) + " of " + from;
     Made made;
     archive(made);
     try {
@@ -172,6 +169,17 @@ std::vector<Rve> readSamples(const std::filesystem::path& path) {
     cells.back().state = readState(cells.back(), archive, where);
   }
   return cells;
+}
+
+void writeSamples(const std::filesystem::path& path, std::span<const Rve> cells) {
+  ByteWriter archive;
+  writeCells(cells, archive, path.string());
+  writeChecked(path, samplesKind, archive.bytes());
+}
+
+std::vector<Rve> readSamples(const std::filesystem::path& path) {
+  ByteReader archive(readChecked(path, samplesKind));
+  return readCells(archive, path.string());
 }
 
 }  // namespace dovetail::rve

@@ -29,10 +29,11 @@ CellMeasures measured(const rve::Rve& cell) {
           .cauchy = rve::stress(cell).cauchy};
 }
 
-/// Calls look(k) of n cells: contacts of hundreds of grains each.
+/// Calls look(k) of n cells: contacts of hundreds of grains each. On ranks one after another, as they are fetched.
 template <class Look>
 void inParts(std::size_t n, const Look& look) {
-  parallelFor(n, 4, [&](std::size_t begin, std::size_t end) {
+  const std::size_t chunk = hierarchical::ranksOfFarm() > 1 ? n : 4;
+  parallelFor(n, chunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) look(k);
   });
 }
@@ -102,6 +103,27 @@ std::vector<std::string> linesOnRepeatedCells(const coupling::CoupledRun& run) {
       lines.push_back("solid \"" + run.solid(s).name + "\": " + std::to_string(cells.repeated) + " of " +
                       std::to_string(cells.all) + " cells have become thin, and are repeated in up to " +
                       std::to_string(cells.mostCopies) + " copies");
+  return lines;
+}
+
+std::vector<const hierarchical::FarmReport*> farmsOf(const fem::Model& model) {
+  std::vector<const hierarchical::FarmReport*> farms;
+  for (const Points::Part& part : pointsOf(model).parts)
+    if (const auto* const farm = part.field ? hierarchical::farmReport(*part.field) : nullptr) farms.push_back(farm);
+  return farms;
+}
+
+std::vector<std::string> linesOnFarms(const coupling::CoupledRun& run) {
+  std::vector<std::string> lines;
+  for (std::size_t s = 0; s < run.solids(); ++s)
+    for (const hierarchical::FarmReport* const farm : farmsOf(*run.solid(s).model)) {
+      std::string line = "solid \"" + run.solid(s).name + "\" on " + std::to_string(farm->points.size()) + " ranks:";
+      for (std::size_t rank = 0; rank < farm->points.size(); ++rank)
+        line += (rank > 0 ? ", " : " ") + std::to_string(farm->points[rank]) + " cells (" + rounded(farm->busy[rank]) +
+                " s)";
+      lines.push_back(line + "; " + std::to_string(farm->moves) + " moved, rank 0 waited " + rounded(farm->waited) +
+                      " s");
+    }
   return lines;
 }
 

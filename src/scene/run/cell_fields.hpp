@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <functional>
 
+#include "dovetail/hierarchical/farm.hpp"
 #include "dovetail/rve/rve.hpp"
 #include "point_fields.hpp"
 
@@ -59,6 +60,11 @@ struct RepeatedCells {
 RepeatedCells repeatedCells(const fem::Model& model);
 /// A line for each solid that has some.
 std::vector<std::string> linesOnRepeatedCells(const coupling::CoupledRun& run);
+
+/// Of fields of cells on several ranks.
+std::vector<const hierarchical::FarmReport*> farmsOf(const fem::Model& model);
+/// Who answered for how many cells: a line for each.
+std::vector<std::string> linesOnFarms(const coupling::CoupledRun& run);
 
 /// What cells there are, as prepared, and how many grains and bytes the points of solids have.
 std::vector<std::string> linesOnCells(const Built& built);

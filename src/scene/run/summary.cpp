@@ -37,6 +37,13 @@ Json solidsOf(const Built& built) {
       list[s]["cells_repeated"] = cells.repeated;
       list[s]["most_copies"] = cells.mostCopies;
     }
+  for (std::size_t s = 0; s < list.size(); ++s)
+    for (const hierarchical::FarmReport* const farm : farmsOf(*built.run->solid(s).model))
+      list[s]["ranks"].push_back({{"cells", farm->points},
+                                  {"busy_s", farm->busy},
+                                  {"evaluations", farm->evaluations},
+                                  {"moves", farm->moves},
+                                  {"waited_s", farm->waited}});
   return list;
 }
 
@@ -84,6 +91,7 @@ std::string writeSummary(const std::filesystem::path& folder, const io::KeyValue
   for (const std::string& line : notes.lines) text << line << '\n';
   coupling::report(run, text);
   for (const std::string& line : linesOnRepeatedCells(run)) text << line << '\n';
+  for (const std::string& line : linesOnFarms(run)) text << line << '\n';
   const std::string title = scene.title.empty() ? "" : scene.title + '\n';
   std::string told;  // the log has these from the start
   for (const std::string& note : built.notes) told += "NOTE: " + note + '\n';

@@ -7,11 +7,23 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/walls.hpp"
 #include "dovetail/surface/skin.hpp"
+#include "run/cell_fields.hpp"
 #include "warnings.hpp"
 
 namespace dovetail::scene {
 
 namespace {
+
+void lookAtIdleRanks(const Built& built, Lines& lines) {
+  const int ranks = hierarchical::ranksOfFarm();
+  if (ranks == 1) return;
+  for (std::size_t s = 0; s < built.run->solids(); ++s)
+    if (!farmsOf(*built.run->solid(s).model).empty()) return;
+  lines.push_back(
+      std::to_string(ranks) +
+      " ranks were started, but no solid has cells of grains that they could share, and one does all: start "
+      "the program alone, with threads.");
+}
 
 // ---- walls
 
@@ -302,6 +314,7 @@ void lookAtFloors(const Built& built, const Scene& scene, Lines& lines) {
 }  // namespace
 
 void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines) {
+  lookAtIdleRanks(built, lines);
   lookAtIdleWalls(built, scene, lines);
   constexpr double machine = 30.0, lid = 90.0;  // lids are thrown open; m/s
   lookAtSpeeds("walls", scene.walls, lid, scene, lines);

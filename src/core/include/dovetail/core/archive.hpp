@@ -5,8 +5,10 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace dovetail {
@@ -22,7 +24,10 @@ public:
   void operator()(const Fields&... fields) {
     (write(fields), ...);
   }
+  /// As they are, without their number: what another writer has written.
+  void append(std::span<const char> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   const std::vector<char>& bytes() const { return bytes_; }
+  std::vector<char> take() { return std::move(bytes_); }
 
 private:
   template <class T>
@@ -69,6 +74,11 @@ public:
     (read(fields), ...);
   }
   bool atEnd() const { return next_ == bytes_.size(); }
+  std::size_t position() const { return next_; }
+  /// What was handed out since a position.
+  std::span<const char> since(std::size_t position) const {
+    return std::span(bytes_).subspan(position, next_ - position);
+  }
 
 private:
   template <class T>

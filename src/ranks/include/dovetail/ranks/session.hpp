@@ -3,12 +3,20 @@
 
 namespace dovetail::ranks {
 
-/// Starts MPI and PETSc where nobody has; what this starts ends with the program. PETSc leaves signals alone, and its
-/// errors come back as codes: see require(). To be called from the program's first thread.
+/// Whether mpirun, or another launcher of MPI, has started this program.
+bool launched();
+
+/// Starts MPI and PETSc where nobody has; what this starts ends with the program, on all ranks at the same time. PETSc
+/// leaves signals alone, and its errors come back as codes: see require(). To be called from the program's first
+/// thread, on all ranks.
 /// @throws NumericalError if they do not start
 void start();
 
-/// @param code  of a call of PETSc @param doing  for the message
+/// Of this process, and of all, once start() was called.
+int rank();
+int count();
+
+/// @param code  of a call of PETSc or MPI @param doing  for the message
 /// @throws NumericalError unless it is 0; std::bad_alloc for lack of memory
 void require(int code, const char* doing);
 

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "dovetail/core/archive.hpp"
@@ -19,6 +20,12 @@ void writeState(const Rve& cell, const CellState& state, ByteWriter& archive);
 ///   one that no cell has. Numbers that have changed to others that might be are for a checksum to find, as files of
 ///   states have (writeSamples, writeChecked)
 CellState readState(const Rve& cell, ByteReader& archive);
+
+/// Whole cells, in the bytes of writeSamples without the checksum. @param where  for messages
+/// @throws InputError for framed cells
+void writeCells(std::span<const Rve> cells, ByteWriter& archive, const std::string& where);
+/// All that are left. @param where  for messages @throws InputError as readSamples
+std::vector<Rve> readCells(ByteReader& archive, const std::string& where);
 
 /// Writes cells to a file with a checksum, for programs that share them.
 /// @throws InputError for framed cells (cut them after reading), or if the file cannot be written there

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/vec3.hpp"
@@ -72,6 +73,8 @@ public:
   virtual std::size_t memory() const { return 0; }
   /// A point in the order of open(), where they are evaluated one by one; else null.
   virtual const FieldPoint* point(std::size_t) const { return nullptr; }
+  /// That each point took in the last evaluation, s, in the order of open(); empty where nobody has looked.
+  virtual std::vector<double> seconds() const { return {}; }
 };
 
 /// The points of a law, for decorators that ask it for all points at once. A solid with the law itself gives the same

@@ -1,0 +1,341 @@
+#include "farmed_field.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <new>
+#include <numeric>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/parallel.hpp"
+#include "farm_plan.hpp"
+#include "samples.hpp"
+#include "share.hpp"
+
+namespace dovetail::hierarchical {
+
+namespace {
+
+/// Points whose states travel together, and that are shown together.
+constexpr std::size_t block = 64;
+/// What a letter and a byte of a state cost on the way, s: two hops of a slow network.
+constexpr double priceOfLetter = 2e-4, priceOfByte = 2e-9;
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// @throws what has gone wrong there
+void requireDone(int rank, ByteReader& reply) {
+  Outcome outcome{};
+  reply(outcome);
+  if (outcome == Outcome::done) return;
+  std::string text;
+  reply(text);
+  const std::string where = "rank " + std::to_string(rank);
+  if (outcome == Outcome::inputError) throw InputError(text, where, "");
+  if (outcome == Outcome::numericalError) throw NumericalError(text, where, "");
+  if (outcome == Outcome::noMemory)
+    throw NumericalError("there is not enough memory for its cells", where, "spread the ranks over more machines");
+  throw Error(text, where, "");
+}
+
+class FarmedField final : public fem::PointField {
+public:
+  FarmedField(const CellRecipe& recipe, Deal deal, Mail& mail, FarmMoving moving)
+      : recipe_(recipe),
+        name_(nameOf(*recipe.samples)),
+        density_(meanDensity(*recipe.samples)),
+        deal_(std::move(deal)),
+        mail_(mail),
+        moving_(moving),
+        own_(recipe) {
+    static std::atomic<std::uint64_t> fields{0};
+    field_ = fields++;
+  }
+  ~FarmedField() override {
+    if (numbers_.empty()) return;
+    try {
+      tellAll(Verb::close);
+      mail_.settle();
+    } catch (...) {  // the workers are gone
+    }
+  }
+
+  std::string name() const override { return name_; }
+  double density() const override { return density_; }
+
+  void open(std::span<const fem::PointPlace> places) override {
+    for (const fem::PointPlace& place : places) sample_.push_back(deal_(place));
+    const auto ranks = static_cast<std::size_t>(mail_.ranks());
+    numbers_.resize(ranks);
+    owner_.resize(places.size());
+    seconds_.assign(places.size(), 0.0);
+    stepSeconds_ = seconds_;
+    threads_.assign(ranks, threads());
+    report_ = {std::vector<std::size_t>(ranks), std::vector<double>(ranks), 0, 0, 0.0};
+    ByteWriter recipe;
+    write(recipe_, recipe);
+    for (int rank = 1; rank < mail_.ranks(); ++rank) {
+      ByteWriter letter = begin(Verb::open);
+      letter.append(recipe.bytes());
+      mail_.send(rank, letter.take());
+    }
+    for (std::size_t p = 0; p < places.size(); ++p) owner_[p] = static_cast<int>(p % ranks);
+    handOut([](std::uint64_t) { return std::vector<char>{}; });
+  }
+
+  void evaluate(const fem::FieldRequest& request) override {
+    if (!request.moved && request.tangent.empty() && !request.withEnergy) return;
+    seen_.clear();
+    for (int rank = 1; rank < mail_.ranks(); ++rank) {
+      ByteWriter letter = begin(Verb::evaluate);
+      letter(questionFor(rank, request));
+      mail_.send(rank, letter.take());
+    }
+    mail_.settle();
+    hand(0, own_.evaluate(questionFor(0, request)), request);
+    const double start = now();
+    gather([&](int rank, ByteReader& reply) {
+      Answers answers;
+      reply(answers);
+      hand(rank, answers, request);
+    });
+    report_.waited += now() - start;
+    ++report_.evaluations;
+  }
+
+  void commit() override {
+    seen_.clear();
+    tellAll(Verb::commit);
+    own_.commit();
+    if (moving_ == FarmMoving::atRandom)
+      moveAtRandom();
+    else
+      moveWhereItPays();
+    std::ranges::fill(stepSeconds_, 0.0);
+  }
+  void revert() override {
+    tellAll(Verb::revert);
+    own_.revert();
+  }
+
+  void save(ByteWriter& archive) const override {
+    archive(static_cast<std::uint64_t>(owner_.size()));
+    for (std::size_t first = 0; first < owner_.size(); first += block)
+      for (const std::vector<char>& state : statesOf(blockAt(first), Verb::copy)) archive.append(state);
+  }
+  void load(ByteReader& archive) override {
+    fem::readPointCount(archive, owner_.size(), name());
+    std::vector<std::vector<char>> states;
+    for (const std::uint64_t sample : sample_) {
+      const std::size_t begin = archive.position();
+      own_.make(sample)->load(archive);  // tells where it ends, and whether it is one
+      const std::span<const char> state = archive.since(begin);
+      states.emplace_back(state.begin(), state.end());
+    }
+    seen_.clear();
+    tellAll(Verb::clear);
+    own_.clear();
+    for (std::vector<std::uint64_t>& numbers : numbers_) numbers.clear();
+    std::ranges::fill(report_.points, std::size_t{0});
+    handOut([&](std::uint64_t number) { return std::move(states[number]); });
+  }
+
+  const fem::FieldPoint* point(std::size_t p) const override {
+    if (owner_.at(p) == 0) return &own_.point(p);
+    const std::size_t first = p / block * block;
+    if (seen_.empty() || firstSeen_ != first) {
+      seen_.clear();
+      const std::vector<std::uint64_t> numbers = blockAt(first);
+      std::vector<std::vector<char>> states = statesOf(numbers, Verb::copy);
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        seen_.push_back(own_.unpack({numbers[k], sample_[numbers[k]], std::move(states[k])}));
+      firstSeen_ = first;
+    }
+    return seen_[p - first].get();
+  }
+
+  std::vector<double> seconds() const override { return seconds_; }
+  const FarmReport& report() const { return report_; }
+
+private:
+  ByteWriter begin(Verb verb) const {
+    ByteWriter letter;
+    letter(verb, field_);
+    return letter;
+  }
+  void tellAll(Verb verb) const {
+    for (int rank = 1; rank < mail_.ranks(); ++rank) mail_.send(rank, begin(verb).take());
+  }
+  std::vector<std::uint64_t> blockAt(std::size_t first) const {
+    std::vector<std::uint64_t> numbers(std::min(block, owner_.size() - first));
+    std::iota(numbers.begin(), numbers.end(), first);
+    return numbers;
+  }
+
+  /// Takes a reply of every worker, in whatever order they come. @throws what went wrong at the lowest rank
+  template <class Take>
+  void gather(Take&& take) const {
+    std::vector<std::vector<char>> replies(static_cast<std::size_t>(mail_.ranks()));
+    for (int k = 1; k < mail_.ranks(); ++k) {
+      Letter letter = mail_.receive();
+      replies[static_cast<std::size_t>(letter.from)] = std::move(letter.bytes);
+    }
+    for (int rank = 1; rank < mail_.ranks(); ++rank) {
+      ByteReader reply(std::move(replies[static_cast<std::size_t>(rank)]));
+      requireDone(rank, reply);
+      take(rank, reply);
+    }
+  }
+
+  /// Points to their owners, who have none.
+  template <class StateOf>
+  void handOut(StateOf&& stateOf) {
+    for (std::size_t first = 0; first < owner_.size(); first += block) {
+      std::vector<std::vector<Parcel>> parcels(numbers_.size());
+      for (const std::uint64_t p : blockAt(first))
+        parcels[static_cast<std::size_t>(owner_[p])].push_back({p, sample_[p], stateOf(p)});
+      for (std::size_t rank = 0; rank < parcels.size(); ++rank) deliver(static_cast<int>(rank), parcels[rank]);
+      mail_.settle();
+    }
+  }
+  void deliver(int rank, const std::vector<Parcel>& parcels) {
+    if (parcels.empty()) return;
+    for (const Parcel& parcel : parcels) {
+      owner_[parcel.number] = rank;
+      numbers_[static_cast<std::size_t>(rank)].push_back(parcel.number);
+      ++report_.points[static_cast<std::size_t>(rank)];
+      if (rank == 0) own_.take(parcel);
+    }
+    if (rank == 0) return;
+    ByteWriter letter = begin(Verb::take);
+    letter(parcels);
+    mail_.send(rank, letter.take());
+  }
+
+  /// Committed states of points, in the order of the numbers.
+  std::vector<std::vector<char>> statesOf(const std::vector<std::uint64_t>& numbers, Verb verb) const {
+    std::vector<std::vector<std::size_t>> asked(numbers_.size());
+    for (std::size_t k = 0; k < numbers.size(); ++k) asked[static_cast<std::size_t>(owner_[numbers[k]])].push_back(k);
+    for (int rank = 1; rank < mail_.ranks(); ++rank) {
+      std::vector<std::uint64_t> theirs;
+      for (const std::size_t k : asked[static_cast<std::size_t>(rank)]) theirs.push_back(numbers[k]);
+      ByteWriter letter = begin(verb);
+      letter(theirs);
+      mail_.send(rank, letter.take());
+    }
+    mail_.settle();
+    std::vector<std::vector<char>> states(numbers.size());
+    gather([&](int rank, ByteReader& reply) {
+      for (const std::size_t k : asked[static_cast<std::size_t>(rank)]) reply(states[k]);
+    });
+    for (const std::size_t k : asked[0]) states[k] = own_.stateOf(numbers[k]);
+    return states;
+  }
+
+  Question questionFor(int rank, const fem::FieldRequest& request) const {
+    Question question{
+        request.dt, request.moved, request.rateAtEnd, request.willCommit, request.withEnergy, !request.tangent.empty(),
+        {}};
+    for (const std::uint64_t p : numbers_[static_cast<std::size_t>(rank)])
+      question.F.insert(question.F.end(), request.F.begin() + static_cast<std::ptrdiff_t>(9 * p),
+                        request.F.begin() + static_cast<std::ptrdiff_t>(9 * p + 9));
+    return question;
+  }
+  void hand(int rank, const Answers& answers, const fem::FieldRequest& request) {
+    const std::vector<std::uint64_t>& numbers = numbers_[static_cast<std::size_t>(rank)];
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      const std::size_t p = numbers[k];
+      if (request.moved) {
+        std::copy_n(&answers.P[9 * k], 9, &request.P[9 * p]);
+        request.dissipated[p] = answers.dissipated[k];
+      }
+      if (request.withEnergy) request.energy[p] = answers.energy[k];
+      if (!request.tangent.empty()) std::copy_n(&answers.tangent[81 * k], 81, &request.tangent[81 * p]);
+      seconds_[p] = answers.seconds[k];
+      stepSeconds_[p] += answers.seconds[k];
+      report_.busy[static_cast<std::size_t>(rank)] += answers.seconds[k];
+    }
+    for (const Reason& reason : answers.reasons) request.reason[numbers[reason.place]] = reason.text;
+    threads_[static_cast<std::size_t>(rank)] = answers.threads;
+  }
+
+  void moveWhereItPays() {
+    const double size = owner_.empty() || numbers_[0].empty() ? 0.0 : double(own_.stateOf(numbers_[0].front()).size());
+    move(worthwhileMoves({owner_, stepSeconds_, threads_}, priceOfLetter + priceOfByte * size));
+  }
+  void moveAtRandom() {
+    std::vector<FarmMove> moves;
+    for (std::size_t p = 0; p < owner_.size(); ++p)
+      moves.push_back({p, static_cast<int>(random_() % static_cast<unsigned>(mail_.ranks()))});
+    move(moves);
+  }
+  void move(const std::vector<FarmMove>& moves) {
+    std::vector<int> to = owner_;
+    for (const FarmMove& each : moves) to[each.point] = each.to;
+    std::vector<std::uint64_t> moving;
+    for (std::size_t p = 0; p < owner_.size(); ++p)
+      if (to[p] != owner_[p]) moving.push_back(p);
+    for (std::size_t first = 0; first < moving.size(); first += block) {
+      const std::vector<std::uint64_t> some(
+          moving.begin() + static_cast<std::ptrdiff_t>(first),
+          moving.begin() + static_cast<std::ptrdiff_t>(std::min(first + block, moving.size())));
+      std::vector<std::vector<char>> states = statesOf(some, Verb::give);
+      std::vector<std::vector<Parcel>> parcels(numbers_.size());
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        const auto from = static_cast<std::size_t>(owner_[some[k]]);
+        if (from == 0) own_.drop(some[k]);
+        std::erase(numbers_[from], some[k]);
+        --report_.points[from];
+        parcels[static_cast<std::size_t>(to[some[k]])].push_back({some[k], sample_[some[k]], std::move(states[k])});
+      }
+      for (std::size_t rank = 0; rank < parcels.size(); ++rank) deliver(static_cast<int>(rank), parcels[rank]);
+      mail_.settle();
+    }
+    report_.moves += static_cast<std::int64_t>(moving.size());
+  }
+
+  CellRecipe recipe_;
+  std::string name_;
+  double density_;
+  Deal deal_;
+  Mail& mail_;
+  FarmMoving moving_;
+  FarmShare own_;
+  std::uint64_t field_;
+  std::vector<std::uint64_t> sample_;
+  std::vector<int> owner_;                           ///< of each point
+  std::vector<std::vector<std::uint64_t>> numbers_;  ///< of the points of each rank, in the order that it has
+  std::vector<double> seconds_;                      ///< that each point took the last time
+  std::vector<double> stepSeconds_;                  ///< and since the last commit
+  std::vector<int> threads_;                         ///< of each rank
+  std::mt19937_64 random_;
+  FarmReport report_;
+  mutable std::vector<std::unique_ptr<fem::FieldPoint>> seen_;  ///< a block of points of others, to look at
+  mutable std::size_t firstSeen_ = 0;
+};
+
+}  // namespace
+
+bool mayTravel(const std::vector<rve::Rve>& samples) {
+  return std::ranges::all_of(samples, [](const rve::Rve& cell) { return cell.frame.empty(); });
+}
+
+std::shared_ptr<fem::PointField> farmedField(const CellRecipe& recipe, Deal deal, Mail& mail, FarmMoving moving) {
+  return std::make_shared<FarmedField>(recipe, std::move(deal), mail, moving);
+}
+
+int ranksOfFarm() {
+  const Mail* const mail = mailOfFarm();
+  return mail ? mail->ranks() : 1;
+}
+
+const FarmReport* farmReport(const fem::PointField& field) {
+  const auto* const farmed = dynamic_cast<const FarmedField*>(&field);
+  return farmed ? &farmed->report() : nullptr;
+}
+
+}  // namespace dovetail::hierarchical

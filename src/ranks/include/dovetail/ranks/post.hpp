@@ -1,0 +1,35 @@
+// Bytes from one rank to another. Who waits sleeps.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+namespace dovetail::ranks {
+
+/// Each rank has its own, made after start() on all ranks. Not for threads.
+class Post {
+public:
+  struct Arrived {
+    int from;
+    std::vector<char> bytes;
+  };
+
+  Post();
+  ~Post();
+  Post(const Post&) = delete;
+  Post& operator=(const Post&) = delete;
+
+  /// Starts to send; what is sent from one rank to another arrives in order.
+  /// @throws NumericalError for 2 GiB or more
+  void send(int to, std::vector<char> bytes);
+  /// Until all that was sent is on its way or has arrived.
+  void settle();
+  /// The next letter, from any rank; waits for one.
+  Arrived receive();
+
+private:
+  struct Sent;
+  std::vector<std::unique_ptr<Sent>> sent_;
+};
+
+}  // namespace dovetail::ranks
