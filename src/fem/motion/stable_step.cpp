@@ -78,7 +78,7 @@ StableStep stableStep(Model& model, const std::string& of) {
     throw InputError("the model has no solid", "stableStep", "add one with makeSolid, or ask assembledStableStep");
   std::string name = of.empty() ? limit.solid : of;
   name.insert(0, 1, '"').push_back('"');
-  limit.owner = limit.part + ' ' + std::to_string(limit.element) + " of " + name;
+  limit.owner = std::string(limit.part) + ' ' + std::to_string(limit.element) + " of " + name;
   const Pull pull = strongestPull(model);
   if (pull.node < 0) return limit;
   const double elements = 4.0 / (limit.dt * limit.dt);
