@@ -80,6 +80,13 @@ Recording record(std::array<int, 2> elements, int steps) {
   return {field->steps, wallSeconds() - start, report.iterations, body.axial()};
 }
 
+std::string noteOf(const Recording& run) {
+  char note[80];
+  std::snprintf(note, sizeof note, "%lld iterations, %.1f kPa", static_cast<long long>(run.iterations),
+                1e-3 * run.axial);
+  return note;
+}
+
 double cellSeconds(const Recording& run) { return hierarchical::replay(run.steps, 1, 0.0, 0.0).alone; }
 
 FigureRow speedUp(const Recording& run, int ranks, double rest, double wanted, const std::string& what) {
@@ -103,8 +110,7 @@ FigureRows farm(bool quick) {
   const int ranks = hierarchical::ranksOfFarm();
   const double cells = cellSeconds(run);
   const double unjudged = std::nan("");
-  FigureRows rows{{"wall clock on " + std::to_string(ranks) + " ranks, s", run.wall, 0.0, unjudged, 0.0,
-                   std::to_string(run.iterations) + " iterations, " + std::to_string(1e-3 * run.axial) + " kPa"},
+  FigureRows rows{{"wall clock on " + std::to_string(ranks) + " ranks, s", run.wall, 0.0, unjudged, 0.0, noteOf(run)},
                   {"in cells, s", cells, 0.0, unjudged}};
   if (ranks > 1) {
     rows.push_back({"replayed for these ranks, cells alone, s",

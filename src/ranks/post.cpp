@@ -1,10 +1,15 @@
 #include "dovetail/ranks/post.hpp"
 
 #include <mpi.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <limits>
+#include <string>
 #include <thread>
 #include <utility>
 
@@ -32,12 +37,33 @@ void waitUntil(Done&& done) {
 
 }  // namespace
 
+template <class Done>
+void Post::waitWithAll(Done&& done) const {
+  int looks = 0;
+  waitUntil([&] {
+    if (++looks % 32 == 0) requireAll();
+    return done();
+  });
+}
+
 struct Post::Sent {
   std::vector<char> bytes;
   MPI_Request request = MPI_REQUEST_NULL;
 };
 
-Post::Post() = default;
+Post::Post() {
+  struct Place {
+    std::array<char, 64> machine{};
+    long process = 0;
+  };
+  Place own;
+  gethostname(own.machine.data(), own.machine.size() - 1);
+  own.process = getpid();
+  std::vector<Place> all(static_cast<std::size_t>(count()));
+  require(MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD), "meeting");
+  for (const Place& place : all)
+    processes_.push_back(place.machine == own.machine && place.process != own.process ? place.process : 0);
+}
 Post::~Post() = default;
 
 void Post::send(int to, std::vector<char> bytes) {
@@ -53,7 +79,7 @@ void Post::send(int to, std::vector<char> bytes) {
 
 void Post::settle() {
   for (const std::unique_ptr<Sent>& letter : sent_)
-    waitUntil([&] {
+    waitWithAll([&] {
       int done = 0;
       require(MPI_Test(&letter->request, &done, MPI_STATUS_IGNORE), "sending");
       return done != 0;
@@ -64,7 +90,7 @@ void Post::settle() {
 Post::Arrived Post::receive() {
   MPI_Message message = MPI_MESSAGE_NULL;
   MPI_Status status;
-  waitUntil([&] {
+  waitWithAll([&] {
     int there = 0;
     require(MPI_Improbe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &message, &status), "waiting for a letter");
     return there != 0;
@@ -72,8 +98,21 @@ Post::Arrived Post::receive() {
   int size = 0;
   require(MPI_Get_count(&status, MPI_BYTE, &size), "receiving");
   Arrived letter{status.MPI_SOURCE, std::vector<char>(static_cast<std::size_t>(size))};
-  require(MPI_Mrecv(letter.bytes.data(), size, MPI_BYTE, &message, &status), "receiving");
+  MPI_Request request = MPI_REQUEST_NULL;
+  require(MPI_Imrecv(letter.bytes.data(), size, MPI_BYTE, &message, &request), "receiving");
+  waitWithAll([&] {
+    int done = 0;
+    require(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "receiving");
+    return done != 0;
+  });
   return letter;
+}
+
+void Post::requireAll() const {
+  for (std::size_t rank = 0; rank < processes_.size(); ++rank)
+    if (processes_[rank] != 0 && kill(static_cast<pid_t>(processes_[rank]), 0) != 0 && errno == ESRCH)
+      throw LostRank("rank " + std::to_string(rank) + " has ended", "process " + std::to_string(processes_[rank]),
+                     "its own message, or that of mpirun, tells why");
 }
 
 }  // namespace dovetail::ranks

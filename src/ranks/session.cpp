@@ -19,9 +19,9 @@ public:
     PetscBool started = PETSC_FALSE;
     PetscInitialized(&started);
     if (started) return;
+    require(PetscOptionsSetValue(nullptr, "-no_signal_handler", "true"), "starting PETSc");
     require(PetscInitializeNoArguments(), "starting PETSc");
     ours_ = true;
-    PetscPopSignalHandler();
     PetscPushErrorHandler(PetscIgnoreErrorHandler, nullptr);
   }
   ~Session() {
@@ -52,6 +52,11 @@ int count() {
   int count = 1;
   require(MPI_Comm_size(MPI_COMM_WORLD, &count), "counting the ranks");
   return count;
+}
+
+void abortAll() {
+  MPI_Abort(MPI_COMM_WORLD, 1);
+  std::abort();
 }
 
 void start() { static const Session session; }

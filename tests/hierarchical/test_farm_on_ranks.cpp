@@ -1,9 +1,11 @@
 // Farms on the ranks of MPI. Rank 0 runs the tests, the others serve.
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <iostream>
 
 #include "dovetail/hierarchical/farm.hpp"
+#include "dovetail/ranks/session.hpp"
 #include "farm_bodies.hpp"
 
 namespace dovetail::hierarchical {
@@ -41,10 +43,20 @@ TEST(FarmOnRanks, LettersLongerThanABufferArrive) {
   EXPECT_TRUE(farm.tangent == here.tangent);
 }
 
+volatile std::sig_atomic_t noted = 0;
+void note(int signal) { noted = signal; }
+
+TEST(FarmOnRanks, SignalsStayWithTheProgram) {
+  ranks::start();
+  std::raise(SIGTERM);
+  EXPECT_EQ(noted, SIGTERM);
+}
+
 }  // namespace
 }  // namespace dovetail::hierarchical
 
 int main(int argc, char** argv) {
+  std::signal(SIGTERM, dovetail::hierarchical::note);
   if (dovetail::hierarchical::serveFarm()) return 0;
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();

@@ -1,4 +1,9 @@
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "dovetail/hierarchical/farm.hpp"
@@ -11,25 +16,49 @@ namespace dovetail::hierarchical {
 
 namespace {
 
+/// Once a rank is lost, nothing is sent any more, and the program ends without waiting for the others.
 class RankMail final : public Mail {
 public:
   ~RankMail() override {
     try {
-      for (int rank = 1; rank < ranks(); ++rank) post_.send(rank, {});
-      post_.settle();
-    } catch (...) {  // the others are gone
+      for (int rank = 1; rank < ranks(); ++rank) send(rank, {});
+      settle();
+    } catch (const std::exception&) {
+      lost_ = true;
     }
+    if (!lost_) return;
+    std::cout.flush();
+    std::_Exit(1);
   }
   int ranks() const override { return ranks::count(); }
-  void send(int to, std::vector<char> bytes) override { post_.send(to, std::move(bytes)); }
-  void settle() override { post_.settle(); }
+  void send(int to, std::vector<char> bytes) override {
+    if (!lost_) post_.send(to, std::move(bytes));
+  }
+  void settle() override {
+    if (!lost_) noting([&] { post_.settle(); });
+  }
   Letter receive() override {
-    ranks::Post::Arrived arrived = post_.receive();
-    return {arrived.from, std::move(arrived.bytes)};
+    Letter letter{};
+    noting([&] {
+      ranks::Post::Arrived arrived = post_.receive();
+      letter = {arrived.from, std::move(arrived.bytes)};
+    });
+    return letter;
   }
 
 private:
+  template <class Act>
+  void noting(Act&& act) {
+    try {
+      act();
+    } catch (const ranks::LostRank&) {
+      lost_ = true;
+      throw;
+    }
+  }
+
   ranks::Post post_;
+  bool lost_ = false;
 };
 
 std::unique_ptr<RankMail>& theMail() {
@@ -37,7 +66,7 @@ std::unique_ptr<RankMail>& theMail() {
   return mail;
 }
 
-void serve() {
+void answerLetters() {
   ranks::Post post;
   FarmWorker worker;
   for (;;) {
@@ -47,6 +76,19 @@ void serve() {
       post.send(letter.from, std::move(*reply));
       post.settle();
     }
+  }
+}
+
+/// When to end is rank 0's to decide: it may want a step to its end, and a checkpoint.
+void serve() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
+  try {
+    answerLetters();
+  } catch (const ranks::LostRank&) {  // rank 0 tells
+    std::_Exit(1);
+  } catch (const std::exception& error) {
+    std::cerr << "rank " << ranks::rank() << ": " << error.what() << std::endl;
+    ranks::abortAll();
   }
 }
 

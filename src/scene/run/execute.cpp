@@ -71,7 +71,20 @@ public:
     frame(0);
   }
 
+  /// @throws what a stage throws; where to go on from is told before
   bool finish() {
+    try {
+      return finishStages();
+    } catch (...) {
+      if (saved_)
+        log_ << "the last checkpoint is of t = " << formatNumber(*saved_) << " s; to go on from there: dovetail resume "
+             << settings_.folder.string() << std::endl;
+      throw;
+    }
+  }
+
+private:
+  bool finishStages() {
     counted_ = Clock::now();
     for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.macroStep = 0) {
       begin();
@@ -101,7 +114,6 @@ public:
     return true;
   }
 
-private:
   fs::path file(const char* name) const { return settings_.folder / name; }
   static double rounded(double seconds) { return std::round(1e3 * seconds) / 1e3; }
   static const char* nameOf(const Stage& stage) {
@@ -319,6 +331,7 @@ private:
     countTime();
     writeTimes(settings_.folder, provenance_, seconds_);
     writeCheckpoint(settings_.folder, identity_, progress_, *built_.run);
+    saved_ = built_.run->time();
   }
   void writeScene() const {
     io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + sceneText(scene_));
@@ -328,6 +341,7 @@ private:
     const Checkpoint last = lastCheckpoint(settings_.folder, log_, Damaged::isSetAside);
     progress_ = last.progress;
     adopt(last, identity_, built_, scene_);
+    saved_ = last.time;
     seconds_ = readTimes(settings_.folder, scene_.stages.size());
     if (settings_.until) {
       lengthen(scene_, plan_, progress_, *built_.run, *settings_.until);
@@ -380,6 +394,7 @@ private:
   std::vector<double> seconds_ = std::vector<double>(scene_.stages.size(), 0.0);  ///< of each stage, in all programs
   Clock::time_point counted_;                                                     ///< until then
   bool toldOfRoom_ = false;
+  std::optional<double> saved_;  ///< time of the last checkpoint, s
 };
 
 }  // namespace

@@ -4,7 +4,14 @@
 #include <memory>
 #include <vector>
 
+#include "dovetail/core/error.hpp"
+
 namespace dovetail::ranks {
+
+/// A rank has ended before the others.
+class LostRank : public NumericalError {
+  using NumericalError::NumericalError;
+};
 
 /// Each rank has its own, made after start() on all ranks. Not for threads.
 class Post {
@@ -22,14 +29,20 @@ public:
   /// Starts to send; what is sent from one rank to another arrives in order.
   /// @throws NumericalError for 2 GiB or more
   void send(int to, std::vector<char> bytes);
-  /// Until all that was sent is on its way or has arrived.
+  /// Until all that was sent is on its way or has arrived. @throws as receive()
   void settle();
   /// The next letter, from any rank; waits for one.
+  /// @throws LostRank if a rank of this machine has ended; mpirun ends all where one of another has
   Arrived receive();
 
 private:
   struct Sent;
+  template <class Done>
+  void waitWithAll(Done&& done) const;
+  void requireAll() const;
+
   std::vector<std::unique_ptr<Sent>> sent_;
+  std::vector<long> processes_;  ///< of all ranks; 0 for this one and those of other machines
 };
 
 }  // namespace dovetail::ranks

@@ -16,6 +16,9 @@ void start();
 int rank();
 int count();
 
+/// Ends all ranks at once, for one that cannot go on.
+[[noreturn]] void abortAll();
+
 /// @param code  of a call of PETSc or MPI @param doing  for the message
 /// @throws NumericalError unless it is 0; std::bad_alloc for lack of memory
 void require(int code, const char* doing);
