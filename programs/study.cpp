@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "dovetail/hierarchical/farm.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/report/text.hpp"
 #include "energy_study.hpp"
@@ -117,6 +118,11 @@ bool studyScene(int argc, char** argv) {
   if (written.file.empty()) throw InputError("FILE is missing", "dovetail study", "name a scene or a study");
   options.refuseBoth("--exact", "--against");
   plan(written, options, settings);
+  if (hierarchical::ranksOfFarm() > 1) {  // processes of a study cannot share the ranks
+    if (options.given("--workers"))
+      throw InputError("a study on ranks runs one case after the other", "--workers", "leave it out, or mpirun");
+    settings.workers = 0;
+  }
   settings.folder = out.empty() ? fs::path(written.file).stem().string() + "-study" : out;
   report::Study study = studyOf(settings);
   study.about["settings"] = report::objectOf(options.described());

@@ -162,13 +162,27 @@ void timeBeams() {
   for (const double tolerance : {1e-5, 1e-10}) timeBeam({10, 10, 150}, Formulation::standard, tolerance, 20);
 }
 
-/// A cube of n³ bricks of 1 m, E 1 MPa, ν 0.3, St Venant-Kirchhoff, clamped below and pressed by a fraction of its
-/// height between rough platens, in one step.
-void timeCube(int n, double fraction, linalg::LinearMethod method) {
+/// A body of a cube of E 1 MPa, by the name of its law.
+std::shared_ptr<Solid> cubeOf(const SolidMesh& mesh, const std::string& law) {
+  if (law == "nearly-incompressible")
+    return makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.499, 1000.0)), {.formulation = Formulation::meanDilatation});
+  if (law == "drucker-prager")
+    return makeSolid(mesh, pointMaterial(DruckerPrager{.youngsModulus = 1e6,
+                                                       .poissonRatio = 0.3,
+                                                       .density = 1000.0,
+                                                       .cohesion = 5e3,
+                                                       .frictionAngle = 0.5,
+                                                       .dilatancyAngle = 0.1}));
+  return makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})));
+}
+
+/// A cube of n³ bricks of 1 m, E 1 MPa, by default St Venant-Kirchhoff with ν 0.3, clamped below and pressed by a
+/// fraction of its height between rough platens, in one step.
+void timeCube(int n, double fraction, linalg::LinearMethod method, const std::string& law) {
   const auto start = std::chrono::steady_clock::now();
   const SolidMesh mesh = boxOf(ElementShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
   Model model = makeModel(mesh);
-  Solid& solid = model.add(makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0}))));
+  Solid& solid = model.add(cubeOf(mesh, law));
   model.constraints.hold(nodeSet(mesh, "z-"));
   model.constraints.hold(nodeSet(mesh, "z+"), componentX | componentY);
   model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [fraction](double t) { return -fraction * t; });
@@ -186,9 +200,10 @@ void timeCube(int n, double fraction, linalg::LinearMethod method) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::printf(
-      "cube %d threads %d %s: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, %lld linear "
+      "cube %d %s threads %d %s: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, %lld "
+      "linear "
       "iterations, force %.6e N, %.0f MB\n",
-      n, threads(), report.solver.c_str(), seconds, report.assemblySeconds, report.solverSeconds,
+      n, law.c_str(), threads(), report.solver.c_str(), seconds, report.assemblySeconds, report.solverSeconds,
       static_cast<long long>(report.iterations), static_cast<long long>(report.factorisations),
       static_cast<long long>(report.linearIterations), force, static_cast<double>(usage.ru_maxrss) / 1024.0);
 }
@@ -337,6 +352,7 @@ int main(int argc, char** argv) {
   int threadCount = 2;
   std::optional<int> cube;
   double press = 0.1;
+  std::string law = "st-venant-kirchhoff";
   bool beams = false, elements = false, memory = false, leavingOut = false, solvers = false, multigrid = false;
   program::Options options("fem_speed", "Times the solid engine: all parts, or those that are named.");
   options.integer("--threads N", threadCount, 1, 1024, "of elements and cubes");
@@ -344,6 +360,7 @@ int main(int argc, char** argv) {
   options.integer("--cube N", cube, 1, 1000, "a cube of N elements each way, pressed in one step");
   options.number("--press F", press, program::positive("a fraction above 0, up to 0.5", 0.5),
                  "fraction of its height that the cube is pressed by");
+  options.word("--law", law, "st-venant-kirchhoff|nearly-incompressible|drucker-prager", "of the cube");
   options.flag("--multigrid", multigrid, "the cube by multigrid in place of conjugate gradients");
   options.flag("--elements", elements, "internal forces and stiffness, by element");
   options.flag("--memory", memory, "bytes per element");
@@ -354,7 +371,8 @@ int main(int argc, char** argv) {
     if (elements || all) timeElements(threadCount);
     setThreads(threadCount);
     if (cube)
-      timeCube(*cube, press, multigrid ? linalg::LinearMethod::multigrid : linalg::LinearMethod::conjugateGradients);
+      timeCube(*cube, press, multigrid ? linalg::LinearMethod::multigrid : linalg::LinearMethod::conjugateGradients,
+               law);
     setThreads(1);
     if (beams || all) {
       std::printf("one thread, %s\n", linalg::SparseCholesky::name());

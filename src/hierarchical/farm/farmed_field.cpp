@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <new>
 #include <numeric>
 #include <random>
@@ -68,9 +69,12 @@ public:
   double density() const override { return density_; }
 
   void open(std::span<const fem::PointPlace> places) override {
+    sample_.clear();
     for (const fem::PointPlace& place : places) sample_.push_back(deal_(place));
     const auto ranks = static_cast<std::size_t>(mail_.ranks());
-    numbers_.resize(ranks);
+    seen_.clear();
+    own_.clear();
+    numbers_.assign(ranks, {});
     owner_.resize(places.size());
     seconds_.assign(places.size(), 0.0);
     stepSeconds_ = seconds_;
@@ -96,13 +100,19 @@ public:
       mail_.send(rank, letter.take());
     }
     mail_.settle();
-    hand(0, own_.evaluate(questionFor(0, request)), request);
+    std::exception_ptr failure;  // the others' answers are on their way all the same
+    try {
+      hand(0, own_.evaluate(questionFor(0, request)), request);
+    } catch (...) {
+      failure = std::current_exception();
+    }
     const double start = now();
     gather([&](int rank, ByteReader& reply) {
       Answers answers;
       reply(answers);
       hand(rank, answers, request);
     });
+    if (failure) std::rethrow_exception(failure);
     report_.waited += now() - start;
     ++report_.evaluations;
   }
