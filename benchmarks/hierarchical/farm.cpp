@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <utility>
 
 #include "biaxial_solid.hpp"
 #include "dovetail/fem/solve/statics.hpp"
@@ -18,8 +18,8 @@ namespace {
 using hierarchical::RecordedStep;
 using hierarchical::Replay;
 
-// Of a network: a letter to and from each rank (some 400 kB of answers a rank), and the state of a cell on its way.
-constexpr double letter = 4e-5, move = 4e-4;  // s
+// Of a network: a letter to and from each rank, s; of a cell of 400 discs, bytes.
+constexpr double letter = 4e-5, move = hierarchical::priceOfMove(100'000);
 
 /// A field of cells that notes what they take.
 class Recorded final : public fem::PointField {

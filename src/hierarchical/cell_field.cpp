@@ -37,7 +37,12 @@ bool visitCell(const fem::PointField& field, std::size_t point, const std::funct
   return owner != nullptr;
 }
 
+bool hasCell(const fem::PointField& field, std::size_t point) {
+  return farmReport(field) != nullptr || dynamic_cast<const CellOwner*>(field.point(point)) != nullptr;
+}
+
 int copiesAt(const fem::PointField& field, std::size_t point) {
+  if (const std::optional<int> copies = copiesInFarm(field, point)) return *copies;
   const auto* const owner = dynamic_cast<const CellOwner*>(field.point(point));
   return owner ? owner->copies() : 0;
 }

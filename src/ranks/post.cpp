@@ -14,13 +14,14 @@
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/lost_error.hpp"
 #include "dovetail/ranks/session.hpp"
 
 namespace dovetail::ranks {
 
 namespace {
 
-constexpr int tag = 77;
+constexpr int tag = 0;
 
 /// Waits until done() says so. Open MPI would poll: sleeps that grow with the time waited, to a twentieth of it and
 /// 1 ms, leave the core to others.
@@ -33,6 +34,18 @@ void waitUntil(Done&& done) {
     std::this_thread::sleep_for(
         std::clamp<Clock::duration>(nap, std::chrono::microseconds(10), std::chrono::milliseconds(1)));
   }
+}
+
+bool lives(long process) { return kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
+
+/// Letters are kept apart from those of the program.
+MPI_Comm ownCommunicator() {
+  static const MPI_Comm own = [] {
+    MPI_Comm copy = MPI_COMM_NULL;
+    require(MPI_Comm_dup(MPI_COMM_WORLD, &copy), "meeting");
+    return copy;
+  }();
+  return own;
 }
 
 }  // namespace
@@ -60,9 +73,10 @@ Post::Post() {
   gethostname(own.machine.data(), own.machine.size() - 1);
   own.process = getpid();
   std::vector<Place> all(static_cast<std::size_t>(count()));
-  require(MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, MPI_COMM_WORLD), "meeting");
+  require(MPI_Allgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, ownCommunicator()), "meeting");
   for (const Place& place : all)
-    processes_.push_back(place.machine == own.machine && place.process != own.process ? place.process : 0);
+    processes_.push_back(
+        place.machine == own.machine && place.process != own.process && lives(place.process) ? place.process : 0);
 }
 Post::~Post() = default;
 
@@ -72,7 +86,7 @@ void Post::send(int to, std::vector<char> bytes) {
                          "spread the work over more ranks");
   sent_.push_back(std::make_unique<Sent>(Sent{std::move(bytes)}));
   Sent& letter = *sent_.back();
-  require(MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, to, tag, MPI_COMM_WORLD,
+  require(MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, to, tag, ownCommunicator(),
                     &letter.request),
           "sending");
 }
@@ -92,7 +106,7 @@ Post::Arrived Post::receive() {
   MPI_Status status;
   waitWithAll([&] {
     int there = 0;
-    require(MPI_Improbe(MPI_ANY_SOURCE, tag, MPI_COMM_WORLD, &there, &message, &status), "waiting for a letter");
+    require(MPI_Improbe(MPI_ANY_SOURCE, tag, ownCommunicator(), &there, &message, &status), "waiting for a letter");
     return there != 0;
   });
   int size = 0;
@@ -110,9 +124,9 @@ Post::Arrived Post::receive() {
 
 void Post::requireAll() const {
   for (std::size_t rank = 0; rank < processes_.size(); ++rank)
-    if (processes_[rank] != 0 && kill(static_cast<pid_t>(processes_[rank]), 0) != 0 && errno == ESRCH)
-      throw LostRank("rank " + std::to_string(rank) + " has ended", "process " + std::to_string(processes_[rank]),
-                     "its own message, or that of mpirun, tells why");
+    if (processes_[rank] != 0 && !lives(processes_[rank]))
+      throw LostError("rank " + std::to_string(rank) + " has ended", "process " + std::to_string(processes_[rank]),
+                      "its own message, or that of mpirun, tells why");
 }
 
 }  // namespace dovetail::ranks

@@ -36,12 +36,6 @@ private:
 
 }  // namespace
 
-bool launched() {
-  for (const char* const set : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
-    if (std::getenv(set) != nullptr) return true;
-  return false;
-}
-
 int rank() {
   int rank = 0;
   require(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "asking for the rank");
@@ -66,8 +60,8 @@ void require(int code, const char* doing) {
   if (code == PETSC_ERR_MEM) throw std::bad_alloc();
   const char* text = nullptr;
   PetscErrorMessage(static_cast<PetscErrorCode>(code), &text, nullptr);
-  throw NumericalError("PETSc stops with code " + std::to_string(code) + (text ? std::string(": ") + text : ""), doing,
-                       "take another linear solver");
+  throw NumericalError("PETSc or MPI stops with code " + std::to_string(code) + (text ? std::string(": ") + text : ""),
+                       doing, "take another linear solver, or one process");
 }
 
 }  // namespace dovetail::ranks

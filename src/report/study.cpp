@@ -11,6 +11,7 @@
 #include <map>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/lost_error.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -41,6 +42,8 @@ Json attempt(const StudyCase& one) {
                  figures.value("failure", ""), figures);
   } catch (const InputError& error) {
     return rowOf(one, "refused", error.what(), Json::object());
+  } catch (const LostError&) {
+    throw;
   } catch (const std::exception& error) {
     return rowOf(one, "broke down", error.what(), Json::object());
   }

@@ -66,12 +66,12 @@ public:
   }
   /// The same F at all points. @return the stress at the first
   Eigen::Matrix3d operator()(const Eigen::Matrix3d& F, bool withTangent = false, double dt = 1.0,
-                             bool willCommit = false) {
+                             bool willCommit = false, bool moved = true) {
     for (std::size_t p = 0; p < energy.size(); ++p) Eigen::Map<RowMajor>(F_.data() + 9 * p) = F;
     std::ranges::fill(reason, std::string{});
     field_->evaluate({.F = F_,
                       .dt = dt,
-                      .moved = true,
+                      .moved = moved,
                       .P = P,
                       .tangent = withTangent ? std::span<double>(tangent) : std::span<double>{},
                       .energy = energy,

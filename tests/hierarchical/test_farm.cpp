@@ -4,6 +4,7 @@
 #include <deque>
 #include <random>
 
+#include "dovetail/core/lost_error.hpp"
 #include "farm/farm_plan.hpp"
 #include "farm/farmed_field.hpp"
 #include "farm/worker.hpp"
@@ -181,6 +182,48 @@ TEST(Farm, CellsOfOthersCanBeLookedAt) {
   EXPECT_THROW(farm.field().point(130), std::out_of_range);
 }
 
+TEST(Farm, ADamagedShareIsToldUntilItIsLoadedAnew) {
+  LateMail mail(2, 5);
+  const auto field = farmedField(
+      {std::make_shared<const std::vector<rve::Rve>>(threeCells()), QuasiStaticCells{}},
+      [](const fem::PointPlace& place) { return place.element == 1 ? 99u : 0u; }, mail);
+  EXPECT_NO_THROW(Asked(field, 1));
+  Asked farm(field, 4);  // element 1 is rank 1's, and there is no sample 99
+  const Eigen::Matrix3d F = rve::plane(1.0, 2e-4, 0.0, 0.9996);
+  for (int again = 0; again < 2; ++again) {
+    EXPECT_THROW(farm(F), LostError);
+    farm.field().revert();
+  }
+  Asked other(farmOf(QuasiStaticCells{}, mail), 4);  // another field has no part in it
+  EXPECT_EQ(other(F), Asked(fieldHere(threeCells(), QuasiStaticCells{}), 4)(F));
+}
+
+TEST(Farm, AskedForTangentsAloneAfterALoadItAnswersAll) {
+  LateMail mail(3, 10);
+  Asked here(fieldHere(threeCells(), QuasiStaticCells{}), 4), farm(farmOf(QuasiStaticCells{}, mail), 4);
+  const Eigen::Matrix3d F = rve::plane(1.0, 2e-4, 0.0, 0.9996);
+  for (Asked* const asked : {&here, &farm}) {
+    ByteWriter start;
+    asked->field().save(start);
+    (*asked)(F);
+    ByteReader back(start.bytes());
+    asked->field().load(back);
+    std::ranges::fill(asked->P, 0.0);
+    (*asked)(F, true, 1.0, false, false);
+  }
+  EXPECT_NE(farm.P[0], 0.0);
+  EXPECT_EQ(here.P, farm.P);
+  EXPECT_EQ(here.dissipated, farm.dissipated);
+  EXPECT_EQ(here.tangent, farm.tangent);
+}
+
+TEST(Farm, CellsWithMassesOfTheirOwnStay) {
+  std::vector<rve::Rve> cells = threeCells();
+  EXPECT_TRUE(mayTravel(cells));
+  cells[1].inertia[0] *= 2.0;
+  EXPECT_FALSE(mayTravel(cells));
+}
+
 TEST(Farm, OpenedAnewItBeginsAnew) {
   LateMail mail(3, 9);
   const auto field = farmOf(QuasiStaticCells{}, mail);
@@ -232,6 +275,7 @@ TEST(Farm, AnIdleRankAndALongPointAreSeen) {
   for (const FarmMove& move : moves) after.owner[move.point] = move.to;
   EXPECT_EQ(std::ranges::max(timesOfRanks(after)), 8.0);
   EXPECT_EQ(timesOfRanks({{0}, {4.0}, {4}}), std::vector<double>{4.0});
+  EXPECT_TRUE(worthwhileMoves({{0, 0, 0, 0}, {8.0, 1.0, 1.0, 1.0}, {4, 4}}, 1e-3).empty());
 }
 
 TEST(Farm, ReplaysAreTheSumsOfWhatTheyReplay) {

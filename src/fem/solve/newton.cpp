@@ -6,6 +6,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/lost_error.hpp"
 #include "dovetail/linalg/sparse.hpp"
 
 namespace dovetail::fem::detail {
@@ -134,6 +135,9 @@ NewtonResult attemptStep(Model& model, const Instant& now, int maxAugmentations,
   try {
     result = solveAugmented(model, now, maxAugmentations, solve);
   } catch (const InputError&) {
+    start.restore();
+    throw;
+  } catch (const LostError&) {
     start.restore();
     throw;
   } catch (const linalg::FactorMemoryError&) {  // a shorter step needs as much

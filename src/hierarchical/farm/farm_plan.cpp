@@ -7,18 +7,25 @@ namespace dovetail::hierarchical {
 namespace {
 
 struct Rank {
-  double sum = 0.0, longest = 0.0;
+  double sum = 0.0, longest = 0.0, second = 0.0;
   int threads = 1;
   double time() const { return std::max(sum / threads, longest); }
+  void take(double seconds) {
+    sum += seconds;
+    second = std::max(second, std::min(longest, seconds));
+    longest = std::max(longest, seconds);
+  }
+  /// With a point that comes for one that goes.
+  double timeWith(double comes, double goes) const {
+    return std::max({(sum + comes - goes) / threads, comes, goes == longest ? second : longest});
+  }
 };
 
 std::vector<Rank> ranksOf(const FarmLoads& loads) {
   std::vector<Rank> ranks(loads.threads.size());
   for (std::size_t r = 0; r < ranks.size(); ++r) ranks[r].threads = std::max(loads.threads[r], 1);
   for (std::size_t p = 0; p < loads.owner.size(); ++p) {
-    Rank& rank = ranks[static_cast<std::size_t>(loads.owner[p])];
-    rank.sum += loads.seconds[p];
-    rank.longest = std::max(rank.longest, loads.seconds[p]);
+    ranks[static_cast<std::size_t>(loads.owner[p])].take(loads.seconds[p]);
   }
   return ranks;
 }
@@ -30,7 +37,7 @@ struct Exchange {
   double time = 0.0;  ///< of the longer of the two afterwards
 };
 
-/// The best of those between two ranks, longest points as sums tell (threads share them evenly).
+/// The best of those between two ranks.
 Exchange bestExchange(const FarmLoads& loads, const std::vector<Rank>& ranks, int from, int to) {
   std::vector<std::size_t> theirs;  // of the idle one, shortest first
   for (std::size_t p = 0; p < loads.owner.size(); ++p)
@@ -39,9 +46,8 @@ Exchange bestExchange(const FarmLoads& loads, const std::vector<Rank>& ranks, in
   const Rank &a = ranks[static_cast<std::size_t>(from)], &b = ranks[static_cast<std::size_t>(to)];
   Exchange best{.time = a.time()};
   const auto consider = [&](std::size_t given, std::size_t taken, bool takes) {
-    const double less = loads.seconds[given] - (takes ? loads.seconds[taken] : 0.0);
-    if (!(less > 0.0)) return;
-    const double time = std::max({(a.sum - less) / a.threads, (b.sum + less) / b.threads, loads.seconds[given]});
+    const double out = loads.seconds[given], in = takes ? loads.seconds[taken] : 0.0;
+    const double time = std::max(a.timeWith(in, out), b.timeWith(out, in));
     if (time < best.time) best = {given, taken, takes, time};
   };
   // At the best difference both are done at the same time.

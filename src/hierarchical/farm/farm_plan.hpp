@@ -14,6 +14,9 @@ struct FarmLoads {
   std::vector<int> threads;     ///< of each rank
 };
 
+/// Of a cell with a state of so many bytes, s: two letters and two hops of a slow network.
+constexpr double priceOfMove(std::size_t bytes) { return 2e-4 + 2e-9 * static_cast<double>(bytes); }
+
 struct FarmMove {
   std::size_t point;
   int to;

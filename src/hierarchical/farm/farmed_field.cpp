@@ -12,7 +12,9 @@
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/lost_error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/rve/rve_archive.hpp"
 #include "farm_plan.hpp"
 #include "samples.hpp"
 #include "share.hpp"
@@ -23,9 +25,6 @@ namespace {
 
 /// Points whose states travel together, and that are shown together.
 constexpr std::size_t block = 64;
-/// What a letter and a byte of a state cost on the way, s: two hops of a slow network.
-constexpr double priceOfLetter = 2e-4, priceOfByte = 2e-9;
-
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// @throws what has gone wrong there
@@ -38,10 +37,25 @@ void requireDone(int rank, ByteReader& reply) {
   const std::string where = "rank " + std::to_string(rank);
   if (outcome == Outcome::inputError) throw InputError(text, where, "");
   if (outcome == Outcome::numericalError) throw NumericalError(text, where, "");
-  if (outcome == Outcome::noMemory)
-    throw NumericalError("there is not enough memory for its cells", where, "spread the ranks over more machines");
+  if (outcome == Outcome::lost) throw LostError(text, where, "");
   throw Error(text, where, "");
 }
+
+/// Letters that nobody has read would be taken for answers to later ones.
+class Exchange {
+public:
+  explicit Exchange(Mail& mail) : mail_(mail) {}
+  ~Exchange() {
+    if (!done_) mail_.giveUp();
+  }
+  Exchange(const Exchange&) = delete;
+  Exchange& operator=(const Exchange&) = delete;
+  void done() { done_ = true; }
+
+private:
+  Mail& mail_;
+  bool done_ = false;
+};
 
 class FarmedField final : public fem::PointField {
 public:
@@ -72,7 +86,8 @@ public:
     sample_.clear();
     for (const fem::PointPlace& place : places) sample_.push_back(deal_(place));
     const auto ranks = static_cast<std::size_t>(mail_.ranks());
-    seen_.clear();
+    forgetSeen();
+    answered_ = false;
     own_.clear();
     numbers_.assign(ranks, {});
     owner_.resize(places.size());
@@ -92,8 +107,9 @@ public:
   }
 
   void evaluate(const fem::FieldRequest& request) override {
-    if (!request.moved && request.tangent.empty() && !request.withEnergy) return;
-    seen_.clear();
+    if (answered_ && !request.moved && request.tangent.empty() && !request.withEnergy) return;
+    forgetSeen();
+    Exchange exchange(mail_);
     for (int rank = 1; rank < mail_.ranks(); ++rank) {
       ByteWriter letter = begin(Verb::evaluate);
       letter(questionFor(rank, request));
@@ -107,18 +123,20 @@ public:
       failure = std::current_exception();
     }
     const double start = now();
-    gather([&](int rank, ByteReader& reply) {
+    gather(exchange, [&](int rank, ByteReader& reply) {
       Answers answers;
       reply(answers);
       hand(rank, answers, request);
     });
     if (failure) std::rethrow_exception(failure);
+    answered_ = true;
     report_.waited += now() - start;
     ++report_.evaluations;
   }
 
   void commit() override {
-    seen_.clear();
+    forgetSeen();
+    answered_ = false;
     tellAll(Verb::commit);
     own_.commit();
     if (moving_ == FarmMoving::atRandom)
@@ -128,6 +146,7 @@ public:
     std::ranges::fill(stepSeconds_, 0.0);
   }
   void revert() override {
+    answered_ = false;
     tellAll(Verb::revert);
     own_.revert();
   }
@@ -142,11 +161,12 @@ public:
     std::vector<std::vector<char>> states;
     for (const std::uint64_t sample : sample_) {
       const std::size_t begin = archive.position();
-      own_.make(sample)->load(archive);  // tells where it ends, and whether it is one
+      own_.fresh(sample)->load(archive);  // tells where it ends, and whether it is one
       const std::span<const char> state = archive.since(begin);
       states.emplace_back(state.begin(), state.end());
     }
-    seen_.clear();
+    forgetSeen();
+    answered_ = false;
     tellAll(Verb::clear);
     own_.clear();
     for (std::vector<std::uint64_t>& numbers : numbers_) numbers.clear();
@@ -158,14 +178,34 @@ public:
     if (owner_.at(p) == 0) return &own_.point(p);
     const std::size_t first = p / block * block;
     if (seen_.empty() || firstSeen_ != first) {
-      seen_.clear();
       const std::vector<std::uint64_t> numbers = blockAt(first);
       std::vector<std::vector<char>> states = statesOf(numbers, Verb::copy);
+      std::vector<std::unique_ptr<fem::FieldPoint>> seen;
       for (std::size_t k = 0; k < numbers.size(); ++k)
-        seen_.push_back(own_.unpack({numbers[k], sample_[numbers[k]], std::move(states[k])}));
+        seen.push_back(own_.unpack({numbers[k], sample_[numbers[k]], std::move(states[k])}));
+      seen_ = std::move(seen);
       firstSeen_ = first;
     }
     return seen_[p - first].get();
+  }
+
+  int copies(std::size_t p) const {
+    if (copies_.empty()) {
+      std::vector<int> all(owner_.size());
+      const auto take = [&](std::size_t rank, const std::vector<int>& copies) {
+        for (std::size_t k = 0; k < copies.size(); ++k) all[numbers_[rank].at(k)] = copies[k];
+      };
+      Exchange exchange(mail_);
+      tellAll(Verb::count);
+      gather(exchange, [&](int rank, ByteReader& reply) {
+        std::vector<int> copies;
+        reply(copies);
+        take(static_cast<std::size_t>(rank), copies);
+      });
+      take(0, own_.copies());
+      copies_ = std::move(all);
+    }
+    return copies_.at(p);
   }
 
   std::vector<double> seconds() const override { return seconds_; }
@@ -186,14 +226,20 @@ private:
     return numbers;
   }
 
+  void forgetSeen() {
+    seen_.clear();
+    copies_.clear();
+  }
+
   /// Takes a reply of every worker, in whatever order they come. @throws what went wrong at the lowest rank
   template <class Take>
-  void gather(Take&& take) const {
+  void gather(Exchange& exchange, Take&& take) const {
     std::vector<std::vector<char>> replies(static_cast<std::size_t>(mail_.ranks()));
     for (int k = 1; k < mail_.ranks(); ++k) {
       Letter letter = mail_.receive();
       replies[static_cast<std::size_t>(letter.from)] = std::move(letter.bytes);
     }
+    exchange.done();
     for (int rank = 1; rank < mail_.ranks(); ++rank) {
       ByteReader reply(std::move(replies[static_cast<std::size_t>(rank)]));
       requireDone(rank, reply);
@@ -230,6 +276,7 @@ private:
   std::vector<std::vector<char>> statesOf(const std::vector<std::uint64_t>& numbers, Verb verb) const {
     std::vector<std::vector<std::size_t>> asked(numbers_.size());
     for (std::size_t k = 0; k < numbers.size(); ++k) asked[static_cast<std::size_t>(owner_[numbers[k]])].push_back(k);
+    Exchange exchange(mail_);
     for (int rank = 1; rank < mail_.ranks(); ++rank) {
       std::vector<std::uint64_t> theirs;
       for (const std::size_t k : asked[static_cast<std::size_t>(rank)]) theirs.push_back(numbers[k]);
@@ -239,44 +286,53 @@ private:
     }
     mail_.settle();
     std::vector<std::vector<char>> states(numbers.size());
-    gather([&](int rank, ByteReader& reply) {
+    gather(exchange, [&](int rank, ByteReader& reply) {
       for (const std::size_t k : asked[static_cast<std::size_t>(rank)]) reply(states[k]);
     });
     for (const std::size_t k : asked[0]) states[k] = own_.stateOf(numbers[k]);
+    if (!states.empty()) bytesOfState_ = states.front().size();
     return states;
   }
 
   Question questionFor(int rank, const fem::FieldRequest& request) const {
     Question question{
-        request.dt, request.moved, request.rateAtEnd, request.willCommit, request.withEnergy, !request.tangent.empty(),
+        request.dt, isNew(request), request.rateAtEnd, request.willCommit, request.withEnergy, !request.tangent.empty(),
         {}};
     for (const std::uint64_t p : numbers_[static_cast<std::size_t>(rank)])
       question.F.insert(question.F.end(), request.F.begin() + static_cast<std::ptrdiff_t>(9 * p),
                         request.F.begin() + static_cast<std::ptrdiff_t>(9 * p + 9));
     return question;
   }
+  /// Points that were committed, reverted or loaded answer anew, whatever is asked.
+  bool isNew(const fem::FieldRequest& request) const { return request.moved || !answered_; }
   void hand(int rank, const Answers& answers, const fem::FieldRequest& request) {
     const std::vector<std::uint64_t>& numbers = numbers_[static_cast<std::size_t>(rank)];
+    if (answers.energy.size() != numbers.size())
+      throw LostError("there are answers of " + std::to_string(answers.energy.size()) + " cells, not " +
+                          std::to_string(numbers.size()),
+                      "rank " + std::to_string(rank), "report this");
+    std::vector<char> fails(numbers.size(), 0);
+    for (const Reason& reason : answers.reasons) {
+      request.reason[numbers.at(reason.place)] = reason.text;
+      fails[reason.place] = 1;
+    }
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       const std::size_t p = numbers[k];
-      if (request.moved) {
+      seconds_[p] = answers.seconds[k];
+      stepSeconds_[p] += answers.seconds[k];
+      report_.busy[static_cast<std::size_t>(rank)] += answers.seconds[k];
+      if (fails[k] != 0) continue;
+      if (isNew(request)) {
         std::copy_n(&answers.P[9 * k], 9, &request.P[9 * p]);
         request.dissipated[p] = answers.dissipated[k];
       }
       if (request.withEnergy) request.energy[p] = answers.energy[k];
       if (!request.tangent.empty()) std::copy_n(&answers.tangent[81 * k], 81, &request.tangent[81 * p]);
-      seconds_[p] = answers.seconds[k];
-      stepSeconds_[p] += answers.seconds[k];
-      report_.busy[static_cast<std::size_t>(rank)] += answers.seconds[k];
     }
-    for (const Reason& reason : answers.reasons) request.reason[numbers[reason.place]] = reason.text;
     threads_[static_cast<std::size_t>(rank)] = answers.threads;
   }
 
-  void moveWhereItPays() {
-    const double size = owner_.empty() || numbers_[0].empty() ? 0.0 : double(own_.stateOf(numbers_[0].front()).size());
-    move(worthwhileMoves({owner_, stepSeconds_, threads_}, priceOfLetter + priceOfByte * size));
-  }
+  void moveWhereItPays() { move(worthwhileMoves({owner_, stepSeconds_, threads_}, priceOfMove(bytesOfState_))); }
   void moveAtRandom() {
     std::vector<FarmMove> moves;
     for (std::size_t p = 0; p < owner_.size(); ++p)
@@ -326,12 +382,23 @@ private:
   FarmReport report_;
   mutable std::vector<std::unique_ptr<fem::FieldPoint>> seen_;  ///< a block of points of others, to look at
   mutable std::size_t firstSeen_ = 0;
+  mutable std::vector<int> copies_;             ///< of all cells, once somebody has asked
+  mutable std::size_t bytesOfState_ = 100'000;  ///< of a cell, once one was seen
+  bool answered_ = false;                       ///< whether all points answer for F that was asked last
 };
 
 }  // namespace
 
 bool mayTravel(const std::vector<rve::Rve>& samples) {
-  return std::ranges::all_of(samples, [](const rve::Rve& cell) { return cell.frame.empty(); });
+  try {
+    ByteWriter bytes;
+    rve::writeCells(samples, bytes, "cells of a farm");
+    ByteReader back(bytes.take());
+    rve::readCells(back, "cells of a farm");
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 std::shared_ptr<fem::PointField> farmedField(const CellRecipe& recipe, Deal deal, Mail& mail, FarmMoving moving) {
@@ -341,6 +408,11 @@ std::shared_ptr<fem::PointField> farmedField(const CellRecipe& recipe, Deal deal
 int ranksOfFarm() {
   const Mail* const mail = mailOfFarm();
   return mail ? mail->ranks() : 1;
+}
+
+std::optional<int> copiesInFarm(const fem::PointField& field, std::size_t point) {
+  const auto* const farmed = dynamic_cast<const FarmedField*>(&field);
+  return farmed ? std::optional(farmed->copies(point)) : std::nullopt;
 }
 
 const FarmReport* farmReport(const fem::PointField& field) {

@@ -19,6 +19,7 @@ enum class Verb : std::uint8_t {
   give,      ///< numbers of points; their states come back, and they are another's
   copy,      ///< numbers of points; their states come back
   clear,     ///< all its points are another's
+  count,     ///< copies of the cells come back
   evaluate,  ///< a question about all its points; answers come back
   commit,
   revert,
@@ -79,6 +80,12 @@ void archiveFields(Archive& archive, AnyAnswers& answers) {
 }
 
 /// How a reply begins: what went wrong, as a kind and a text.
-enum class Outcome : std::uint8_t { done, inputError, numericalError, noMemory, otherError };
+enum class Outcome : std::uint8_t {
+  done,
+  inputError,
+  numericalError,
+  otherError,
+  lost  ///< the points there are not what rank 0 takes them for
+};
 
 }  // namespace dovetail::hierarchical

@@ -21,13 +21,15 @@ public:
   /// With this one: ranks 1 … ranks() − 1 are workers.
   virtual int ranks() const = 0;
   virtual void send(int to, std::vector<char> bytes) = 0;
-  /// Sleeps until all that was sent has arrived.
+  /// Sleeps until all that was sent is on its way or has arrived.
   virtual void settle() = 0;
-  /// Sleeps until there is one, of whom ever.
+  /// Sleeps until there is one, of whom ever. @throws LostError if there will be none any more
   virtual Letter receive() = 0;
+  /// Letters are out of step: from now on there are none.
+  virtual void giveUp() {}
 };
 
-/// Null where there are no workers.
+/// Null where there are no workers, and to threads other than that of serveFarm().
 Mail* mailOfFarm();
 
 }  // namespace dovetail::hierarchical

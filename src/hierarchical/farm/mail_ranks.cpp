@@ -2,13 +2,16 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
-#include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/lost_error.hpp"
 #include "dovetail/hierarchical/farm.hpp"
 #include "dovetail/ranks/post.hpp"
 #include "dovetail/ranks/session.hpp"
+#include "launcher.hpp"
 #include "mail.hpp"
 #include "worker.hpp"
 
@@ -16,28 +19,21 @@ namespace dovetail::hierarchical {
 
 namespace {
 
-/// Once a rank is lost, nothing is sent any more, and the program ends without waiting for the others.
+constexpr const char* gone = "letters between ranks have come to an end";
+
+/// Of rank 0, for one thread. Once a rank is lost or letters are out of step there are none any more.
 class RankMail final : public Mail {
 public:
-  ~RankMail() override {
-    try {
-      for (int rank = 1; rank < ranks(); ++rank) send(rank, {});
-      settle();
-    } catch (const std::exception&) {
-      lost_ = true;
-    }
-    if (!lost_) return;
-    std::cout.flush();
-    std::_Exit(1);
-  }
-  int ranks() const override { return ranks::count(); }
+  int ranks() const override { return ranks_; }
   void send(int to, std::vector<char> bytes) override {
-    if (!lost_) post_.send(to, std::move(bytes));
+    requireThread();
+    if (!ended_) post_.send(to, std::move(bytes));
   }
   void settle() override {
-    if (!lost_) noting([&] { post_.settle(); });
+    if (!ended_) noting([&] { post_.settle(); });
   }
   Letter receive() override {
+    if (ended_) throw LostError(gone, "ranks", "start again");
     Letter letter{};
     noting([&] {
       ranks::Post::Arrived arrived = post_.receive();
@@ -45,26 +41,51 @@ public:
     });
     return letter;
   }
+  void giveUp() override { ended_ = true; }
+  bool isOfThisThread() const { return std::this_thread::get_id() == thread_; }
+
+  /// The others end too. Where that cannot be told to them, the program does not wait for them.
+  void sayFarewell() {
+    try {
+      for (int rank = 1; rank < ranks(); ++rank) send(rank, {});
+      settle();
+    } catch (const std::exception&) {
+      ended_ = true;
+    }
+    if (ended_) {
+      std::cout.flush();
+      std::_Exit(1);
+    }
+    ended_ = true;
+  }
 
 private:
+  void requireThread() const {
+    if (!isOfThisThread())
+      throw Error("cells on ranks are asked by another thread", "farm of cells", "ask from the thread of serveFarm()");
+  }
   template <class Act>
   void noting(Act&& act) {
     try {
       act();
-    } catch (const ranks::LostRank&) {
-      lost_ = true;
+    } catch (const LostError&) {
+      ended_ = true;
       throw;
     }
   }
 
   ranks::Post post_;
-  bool lost_ = false;
+  int ranks_ = ranks::count();
+  std::thread::id thread_ = std::this_thread::get_id();
+  bool ended_ = false;
 };
 
-std::unique_ptr<RankMail>& theMail() {
-  static std::unique_ptr<RankMail> mail;  // made after the session, which thus ends later
-  return mail;
-}
+/// Lives as long as the program: fields may outlive what ends the letters.
+RankMail* theMail = nullptr;
+
+struct Farewell {
+  ~Farewell() { theMail->sayFarewell(); }
+};
 
 void answerLetters() {
   ranks::Post post;
@@ -84,7 +105,7 @@ void serve() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   try {
     answerLetters();
-  } catch (const ranks::LostRank&) {  // rank 0 tells
+  } catch (const LostError&) {  // rank 0 tells
     std::_Exit(1);
   } catch (const std::exception& error) {
     std::cerr << "rank " << ranks::rank() << ": " << error.what() << std::endl;
@@ -94,14 +115,15 @@ void serve() {
 
 }  // namespace
 
-Mail* mailOfFarm() { return theMail().get(); }
+Mail* mailOfFarm() { return theMail != nullptr && theMail->isOfThisThread() ? theMail : nullptr; }
 
 bool serveFarm() {
-  if (!ranks::launched()) return false;
+  if (theMail != nullptr || ranksLaunched() == 1) return false;
   ranks::start();
   if (ranks::count() == 1) return false;
   if (ranks::rank() > 0) return serve(), true;
-  theMail() = std::make_unique<RankMail>();
+  theMail = new RankMail;
+  static const Farewell farewell;  // made after the session, which thus ends later
   return false;
 }
 

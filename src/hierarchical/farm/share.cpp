@@ -9,10 +9,10 @@
 namespace dovetail::hierarchical {
 
 FarmShare::FarmShare(const CellRecipe& recipe)
-    : make(std::visit([&](const auto& settings) { return cellMaker(recipe.samples, settings); }, recipe.settings)) {}
+    : make_(std::visit([&](const auto& settings) { return cellMaker(recipe.samples, settings); }, recipe.settings)) {}
 
 std::unique_ptr<fem::FieldPoint> FarmShare::unpack(const Parcel& parcel) const {
-  std::unique_ptr<fem::FieldPoint> point = make(parcel.sample);
+  std::unique_ptr<fem::FieldPoint> point = make_(parcel.sample);
   if (parcel.state.empty()) return point;
   ByteReader archive(parcel.state);
   point->load(archive);
@@ -39,6 +39,13 @@ void FarmShare::drop(std::uint64_t number) {
 void FarmShare::clear() {
   numbers_.clear();
   points_ = {};
+}
+
+std::vector<int> FarmShare::copies() const {
+  std::vector<int> copies;
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    copies.push_back(dynamic_cast<const CellOwner&>(points_[k]).copies());
+  return copies;
 }
 
 Answers FarmShare::evaluate(const Question& question) {

@@ -16,6 +16,8 @@ public:
   /// @throws InputError if a setting is not valid
   explicit FarmShare(const CellRecipe& recipe);
 
+  /// A point that begins as the sample of that number.
+  std::unique_ptr<fem::FieldPoint> fresh(std::size_t sample) const { return make_(sample); }
   /// A point as such a parcel says. @throws InputError if the state is not one of its sample
   std::unique_ptr<fem::FieldPoint> unpack(const Parcel& parcel) const;
   void take(const Parcel& parcel);
@@ -25,15 +27,16 @@ public:
   void clear();
   const fem::FieldPoint& point(std::uint64_t number) const { return points_[placeOf(number)]; }
 
+  /// Of its cells, in their order.
+  std::vector<int> copies() const;
   Answers evaluate(const Question& question);
   void commit() { points_.commit(); }
   void revert() { points_.revert(); }
 
-  MakeCell make;
-
 private:
   std::size_t placeOf(std::uint64_t number) const;
 
+  MakeCell make_;
   std::vector<std::uint64_t> numbers_;
   fem::PointTasks points_;
 };

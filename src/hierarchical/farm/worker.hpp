@@ -16,12 +16,15 @@ public:
   std::optional<std::vector<char>> answer(std::vector<char> letter);
 
 private:
-  void act(Verb verb, ByteReader& letter, ByteWriter& reply);
-  void noteFailure();
+  /// A field whose points are not what rank 0 takes them for, since a letter that wants no reply could not be done, has
+  /// that for an answer until it is opened or cleared.
+  struct Field {
+    std::optional<FarmShare> share;
+    Outcome outcome = Outcome::done;
+    std::string failure;
+  };
 
-  std::map<std::uint64_t, FarmShare> fields_;
-  Outcome outcome_ = Outcome::done;  ///< what went wrong since the last reply
-  std::string failure_;
+  std::map<std::uint64_t, Field> fields_;
 };
 
 }  // namespace dovetail::hierarchical

@@ -134,7 +134,7 @@ std::vector<CellPoint> cellPoints(const fem::Model& model) {
     const fem::Solid::Sample& sample = part.sample;
     point = sample.element[p] == last ? point + 1 : 0;  // of points without elements, their number
     last = sample.element[p];
-    if (part.field && hierarchical::visitCell(*part.field, p, [](const rve::Rve&) {}))
+    if (part.field && hierarchical::hasCell(*part.field, p))
       cells.push_back({part.field, p, last, point, sample.X[p], sample.volume[p]});
   });
   return cells;
@@ -170,9 +170,12 @@ void visit(const CellPoint& place, const std::function<void(const rve::Rve&)>& l
 
 CellMeasures meanOf(const std::vector<CellPoint>& cells, int& dimension) {
   std::vector<CellMeasures> all(cells.size());
-  inParts(cells.size(),
-          [&](std::size_t k) { visit(cells[k], [&](const rve::Rve& cell) { all[k] = measured(cell); }); });
-  visit(cells.front(), [&](const rve::Rve& cell) { dimension = cell.dimension(); });
+  inParts(cells.size(), [&](std::size_t k) {
+    visit(cells[k], [&](const rve::Rve& cell) {
+      all[k] = measured(cell);
+      if (k == 0) dimension = cell.dimension();
+    });
+  });
   CellMeasures sum;
   double volume = 0.0;
   for (std::size_t k = 0; k < cells.size(); ++k) {

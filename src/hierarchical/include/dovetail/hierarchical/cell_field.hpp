@@ -64,6 +64,9 @@ double meanDensity(const std::vector<rve::Rve>& samples);
 /// @return whether there is one: other fields have none
 bool visitCell(const fem::PointField& field, std::size_t point, const std::function<void(const rve::Rve&)>& visit);
 
+/// Whether a point of a field has a cell.
+bool hasCell(const fem::PointField& field, std::size_t point);
+
 /// In how many copies the cell of a point is, 0 where there is no cell. A committed cell whose faces have come near is
 /// repeated (rve::repeat), as long as there are no more than mostCopies.
 inline constexpr int mostCopies = 64;

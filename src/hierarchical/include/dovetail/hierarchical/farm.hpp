@@ -15,8 +15,8 @@ namespace dovetail::hierarchical {
 /// @throws InputError on several ranks where the build has none (DOVETAIL_RANKS)
 bool serveFarm();
 
-/// That share cells, this one among them: 1 without serveFarm(). On more, cells are looked at from one thread only
-/// (visitCell, copiesAt).
+/// That share cells, this one among them: 1 without serveFarm(). On more, fields of cells that the thread of
+/// serveFarm() makes are asked and looked at by that thread only; those of others stay in this process.
 int ranksOfFarm();
 
 /// What a field's farm has done since the field was opened.

@@ -4,14 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "dovetail/core/error.hpp"
-
 namespace dovetail::ranks {
-
-/// A rank has ended before the others.
-class LostRank : public NumericalError {
-  using NumericalError::NumericalError;
-};
 
 /// Each rank has its own, made after start() on all ranks. Not for threads.
 class Post {
@@ -32,7 +25,7 @@ public:
   /// Until all that was sent is on its way or has arrived. @throws as receive()
   void settle();
   /// The next letter, from any rank; waits for one.
-  /// @throws LostRank if a rank of this machine has ended; mpirun ends all where one of another has
+  /// @throws LostError if a rank of this machine has ended; mpirun ends all where one of another has
   Arrived receive();
 
 private:
@@ -42,7 +35,7 @@ private:
   void requireAll() const;
 
   std::vector<std::unique_ptr<Sent>> sent_;
-  std::vector<long> processes_;  ///< of all ranks; 0 for this one and those of other machines
+  std::vector<long> processes_;  ///< of all ranks; 0 for this one and those that cannot be seen from here
 };
 
 }  // namespace dovetail::ranks

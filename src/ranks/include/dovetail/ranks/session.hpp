@@ -3,9 +3,6 @@
 
 namespace dovetail::ranks {
 
-/// Whether mpirun, or another launcher of MPI, has started this program.
-bool launched();
-
 /// Starts MPI and PETSc where nobody has; what this starts ends with the program, on all ranks at the same time. PETSc
 /// leaves signals alone, and its errors come back as codes: see require(). To be called from the program's first
 /// thread, on all ranks.

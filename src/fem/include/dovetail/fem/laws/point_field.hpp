@@ -71,7 +71,8 @@ public:
   virtual void load(ByteReader& archive) = 0;
   /// Bytes.
   virtual std::size_t memory() const { return 0; }
-  /// A point in the order of open(), where they are evaluated one by one; else null.
+  /// A point in the order of open(), where they are evaluated one by one; else null. To be looked at before the next is
+  /// asked for.
   virtual const FieldPoint* point(std::size_t) const { return nullptr; }
   /// That each point took in the last evaluation, s, in the order of open(); empty where nobody has looked.
   virtual std::vector<double> seconds() const { return {}; }
