@@ -98,7 +98,7 @@ if(DOVETAIL_PYTHON)
   endif()
 endif()
 
-option(DOVETAIL_RANKS "Build the component ranks: multigrid for large solids by PETSc on MPI (links GPL parts of Debian's PETSc)" OFF)
+option(DOVETAIL_RANKS "Build the component ranks: multigrid for large solids and cells on ranks, by PETSc on MPI (links GPL parts of Debian's PETSc)" OFF)
 if(DOVETAIL_RANKS)
   find_package(Petsc QUIET)
   if(NOT Petsc_FOUND)
