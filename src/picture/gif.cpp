@@ -216,8 +216,8 @@ std::string imageBlock(const std::vector<std::uint8_t>& now, const std::vector<s
       part.push_back(!before.empty() && before[k] == now[k] ? clear : now[k]);
     }
   std::string block = std::string("\x21\xF9\x04\x05", 4) + littleEndian(hundredths) + static_cast<char>(clear) + '\0';
-  block += std::string(",") + littleEndian(window.left) + littleEndian(window.top) + littleEndian(window.right - window.left) +
-           littleEndian(window.bottom - window.top) + '\0' + '\x08';
+  block += std::string(",") + littleEndian(window.left) + littleEndian(window.top) +
+           littleEndian(window.right - window.left) + littleEndian(window.bottom - window.top) + '\0' + '\x08';
   const std::string data = packed(part);
   for (std::size_t k = 0; k < data.size(); k += 255) {
     const std::string piece = data.substr(k, 255);
