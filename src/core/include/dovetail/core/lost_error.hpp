@@ -1,3 +1,4 @@
+// Errors after which nothing can be tried again.
 #pragma once
 
 #include "dovetail/core/error.hpp"
