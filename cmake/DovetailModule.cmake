@@ -61,6 +61,19 @@ function(dovetail_add_test name)
                        PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=1")
 endfunction()
 
+# dovetail_add_test_on_ranks(<name> RANKS n… …): as dovetail_add_test, with a main() of its own, and once more as a whole
+# under mpirun with each number of ranks.
+function(dovetail_add_test_on_ranks name)
+  cmake_parse_arguments(TEST "" "" "RANKS;SOURCES;DEPENDS" ${ARGN})
+  dovetail_add_test(${name} EIGEN SOURCES ${TEST_SOURCES} DEPENDS ${TEST_DEPENDS})
+  foreach(ranks ${TEST_RANKS})
+    add_test(NAME ${name}.${ranks}
+             COMMAND "${MPIEXEC_EXECUTABLE}" --mca plm isolated --oversubscribe --allow-run-as-root ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+                     $<TARGET_FILE:test_${name}>)
+    set_tests_properties(${name}.${ranks} PROPERTIES ENVIRONMENT "OMP_NUM_THREADS=2" PROCESSORS 2 TIMEOUT 300)
+  endforeach()
+endfunction()
+
 # dovetail_set_options(<target> [LIGHT] [TOGETHER] [HEADERS header…]): flags and a precompiled header for libraries and
 # programs. It is shared by targets of the same flags, and saves a fifth of their time to build. Sources with flags of
 # their own skip it; DOVETAIL_PRECOMPILED_HEADERS=OFF shows which #include a file lacks.

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/team.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/plasticity.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
@@ -26,6 +27,7 @@
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
 #include "dovetail/linalg/multigrid.hpp"
+#include "dovetail/linalg/partition.hpp"
 #include "program/run.hpp"
 
 namespace {
@@ -163,17 +165,18 @@ void timeBeams() {
 }
 
 /// A body of a cube of E 1 MPa, by the name of its law.
-std::shared_ptr<Solid> cubeOf(const SolidMesh& mesh, const std::string& law) {
+std::shared_ptr<Solid> cubeOf(const SolidMesh& mesh, const std::string& law, bool onRanks) {
   if (law == "nearly-incompressible")
-    return makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.499, 1000.0)), {.formulation = Formulation::meanDilatation});
+    return makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.499, 1000.0)), {.formulation = Formulation::meanDilatation, .onRanks = onRanks});
   if (law == "drucker-prager")
     return makeSolid(mesh, pointMaterial(DruckerPrager{.youngsModulus = 1e6,
                                                        .poissonRatio = 0.3,
                                                        .density = 1000.0,
                                                        .cohesion = 5e3,
                                                        .frictionAngle = 0.5,
-                                                       .dilatancyAngle = 0.1}));
-  return makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})));
+                                                       .dilatancyAngle = 0.1}),
+                     {.onRanks = onRanks});
+  return makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})), {.onRanks = onRanks});
 }
 
 /// A cube of n³ bricks of 1 m, E 1 MPa, by default St Venant-Kirchhoff with ν 0.3, clamped below and pressed by a
@@ -182,7 +185,7 @@ void timeCube(int n, double fraction, linalg::LinearMethod method, const std::st
   const auto start = std::chrono::steady_clock::now();
   const SolidMesh mesh = boxOf(ElementShape::hex8, {n, n, n}, {}, {1.0, 1.0, 1.0});
   Model model = makeModel(mesh);
-  Solid& solid = model.add(cubeOf(mesh, law));
+  Solid& solid = model.add(cubeOf(mesh, law, method == linalg::LinearMethod::multigrid));
   model.constraints.hold(nodeSet(mesh, "z-"));
   model.constraints.hold(nodeSet(mesh, "z+"), componentX | componentY);
   model.constraints.prescribe(nodeSet(mesh, "z+"), 2, [fraction](double t) { return -fraction * t; });
@@ -199,13 +202,17 @@ void timeCube(int n, double fraction, linalg::LinearMethod method, const std::st
   for (const int node : nodeSet(mesh, "z+")) force += f[static_cast<std::size_t>(node)].z;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
+  const double ownSeconds = static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+  const double memory = static_cast<double>(usage.ru_maxrss) / 1024.0;
+  const double busiest = team().largest(ownSeconds), all = team().sum(ownSeconds), most = team().largest(memory);
+  if (team().rank() > 0) return;
   std::printf(
-      "cube %d %s threads %d %s: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, %lld "
+      "cube %d %s ranks %d threads %d %s: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, %lld "
       "linear "
-      "iterations, force %.6e N, %.0f MB\n",
-      n, law.c_str(), threads(), report.solver.c_str(), seconds, report.assemblySeconds, report.solverSeconds,
+      "iterations, force %.9e N, %.0f MB at the most, user CPU %.2f s in all, %.2f s of the busiest\n",
+      n, law.c_str(), team().size(), threads(), report.solver.c_str(), seconds, report.assemblySeconds, report.solverSeconds,
       static_cast<long long>(report.iterations), static_cast<long long>(report.factorisations),
-      static_cast<long long>(report.linearIterations), force, static_cast<double>(usage.ru_maxrss) / 1024.0);
+      static_cast<long long>(report.linearIterations), force, most, all, busiest);
 }
 
 /// Bytes per brick without the arrays of the nodes, after explicit forces on one and two threads, and after a tangent.
@@ -361,7 +368,8 @@ int main(int argc, char** argv) {
   options.number("--press F", press, program::positive("a fraction above 0, up to 0.5", 0.5),
                  "fraction of its height that the cube is pressed by");
   options.word("--law", law, "st-venant-kirchhoff|nearly-incompressible|drucker-prager", "of the cube");
-  options.flag("--multigrid", multigrid, "the cube by multigrid in place of conjugate gradients");
+  options.flag("--multigrid", multigrid,
+               "the cube by multigrid in place of conjugate gradients, and by all ranks under mpirun");
   options.flag("--elements", elements, "internal forces and stiffness, by element");
   options.flag("--memory", memory, "bytes per element");
   options.flag("--leaving-out", leavingOut, "what parts of a step cost");
@@ -370,6 +378,7 @@ int main(int argc, char** argv) {
     const bool all = !beams && !cube && !elements && !memory && !leavingOut && !solvers;
     if (elements || all) timeElements(threadCount);
     setThreads(threadCount);
+    if (cube && multigrid) linalg::meetRanks();
     if (cube)
       timeCube(*cube, press, multigrid ? linalg::LinearMethod::multigrid : linalg::LinearMethod::conjugateGradients,
                law);

@@ -5,6 +5,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/team.hpp"
 
 namespace dovetail::linalg {
 
@@ -74,6 +75,14 @@ BlockMatrix::BlockMatrix(const NodePairs& pairs) : NodePairs(pairs), values_(9 *
 
 BlockMatrix::BlockMatrix(MatrixPattern pattern) : NodePairs(std::move(pattern)), values_(9 * columns().size(), 0.0) {}
 
+BlockMatrix::BlockMatrix(MatrixPattern pattern, std::vector<int> owners) : BlockMatrix(std::move(pattern)) {
+  owners_ = std::move(owners);
+}
+
+bool BlockMatrix::takes(int row) const {
+  return !ownRowsOnly_ || owners_[static_cast<std::size_t>(row)] == team().rank();
+}
+
 void BlockMatrix::setZero() {
   parallelFor(values_.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
     std::fill(values_.begin() + static_cast<std::ptrdiff_t>(begin), values_.begin() + static_cast<std::ptrdiff_t>(end),
@@ -94,7 +103,7 @@ std::size_t NodePairs::place(int row, int column) const {
 void BlockMatrix::add(std::span<const int> nodes, std::span<const double> matrix) {
   const std::size_t n = nodes.size();
   for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b < n; ++b) {
+    for (std::size_t b = 0; b < n && takes(nodes[a]); ++b) {
       double* const block = &values_[9 * place(nodes[a], nodes[b])];
       for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t d = 0; d < 3; ++d) block[3 * c + d] += matrix[3 * n * (3 * a + c) + 3 * b + d];
@@ -102,6 +111,7 @@ void BlockMatrix::add(std::span<const int> nodes, std::span<const double> matrix
 }
 
 void BlockMatrix::addBlock(int row, int column, std::span<const double, 9> block) {
+  if (!takes(row)) return;
   double* const target = &values_[9 * place(row, column)];
   for (std::size_t k = 0; k < 9; ++k) target[k] += block[k];
 }
@@ -133,6 +143,7 @@ void BlockMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
       y[n] = sum;
     }
   });
+  if (isPart()) team().sum(std::span(y.empty() ? nullptr : &y[0].x, 3 * y.size()));
 }
 
 }  // namespace dovetail::linalg

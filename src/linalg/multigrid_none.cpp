@@ -13,7 +13,8 @@ void Multigrid::require(const std::string& where) {
 Multigrid::Multigrid(double, int) { require("linear solver"); }
 Multigrid::~Multigrid() = default;
 Multigrid::Multigrid(Multigrid&&) noexcept = default;
-void Multigrid::take(const RowMatrix&, std::size_t, bool, std::span<const double>) {}
+void Multigrid::take(RowMatrix&, std::size_t, bool, std::span<const std::vector<double>>) {}
+void Multigrid::take(SharedRows&, std::size_t, bool, std::span<const std::vector<double>>) {}
 void Multigrid::solve(std::span<double>, double) {}
 std::int64_t Multigrid::iterations() const { return 0; }
 std::int64_t Multigrid::setUps() const { return 0; }

@@ -10,31 +10,11 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/linalg/multigrid.hpp"
 #include "dovetail/ranks/session.hpp"
+#include "petsc_owned.hpp"
 
 namespace dovetail::linalg {
 
 namespace {
-
-/// What PETSc makes, and destroys.
-template <class T, PetscErrorCode (*destroy)(T*)>
-class Owned {
-public:
-  Owned() = default;
-  ~Owned() { reset(); }
-  Owned(const Owned&) = delete;
-  Owned& operator=(const Owned&) = delete;
-  void reset() {
-    if (it_) destroy(&it_);
-  }
-  operator T() const { return it_; }
-  T* fresh() {
-    reset();
-    return &it_;
-  }
-
-private:
-  T it_ = nullptr;
-};
 
 /// Options of PETSc by its own names, unless the environment (PETSC_OPTIONS) says them.
 void suggest(const char* name, const char* value) {
@@ -55,12 +35,17 @@ struct Multigrid::Impl {
   std::int64_t iterations = 0, setUps = 0;
   PetscInt last = 0;                     // iterations of the last solve
   double costAtFirst = 0.0, cost = 0.0;  // iterations a decade, of the first solve with these levels and of the last
+  MPI_Comm comm = PETSC_COMM_SELF;      // that have rows
   std::vector<double> x;
   Owned<Mat, MatDestroy> matrix;
   Owned<KSP, KSPDestroy> solver;
 
-  void wrap(const RowMatrix& A);
-  void setModes(std::span<const double> modes);
+  template <class Wrap>
+  void take(std::size_t id, bool isSymmetric, std::span<const std::vector<double>> modes, Wrap&& wrap);
+  void wrap(RowMatrix& A);
+  void wrap(SharedRows& A);
+  Vec vectorOf(double* values, std::size_t size) const;
+  void setModes(std::span<const std::vector<double>> modes);
   void make();
   void minimiseResiduals(bool minimises);
   bool isIndefinite() const;
@@ -79,52 +64,62 @@ Multigrid::~Multigrid() = default;
 Multigrid::Multigrid(Multigrid&&) noexcept = default;
 
 /// The arrays themselves, not copies.
-void Multigrid::Impl::wrap(const RowMatrix& A) {
-  using ranks::require;
-  const auto at = [](const std::vector<int>& a) { return const_cast<PetscInt*>(a.data()); };
-  require(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, A.size, A.size, at(A.offsets), at(A.column),
-                                    const_cast<double*>(A.value.data()), matrix.fresh()),
+void Multigrid::Impl::wrap(RowMatrix& A) {
+  comm = PETSC_COMM_SELF;
+  ranks::require(MatCreateSeqAIJWithArrays(comm, A.size, A.size, A.offsets.data(), A.column.data(), A.value.data(),
+                                    matrix.fresh()),
           "matrix of a solid");
-  require(MatSetBlockSize(matrix, 3), "matrix of a solid");
 }
 
-void Multigrid::Impl::setModes(std::span<const double> modes) {
-  using ranks::require;
+void Multigrid::Impl::wrap(SharedRows& A) {
+  comm = PETSC_COMM_WORLD;
+  ranks::require(MatCreateMPIAIJWithSplitArrays(comm, A.own.size, A.own.size, A.firsts.back(), A.firsts.back(),
+                                         A.own.offsets.data(), A.own.column.data(), A.own.value.data(),
+                                         A.others.offsets.data(), A.others.column.data(), A.others.value.data(),
+                                         matrix.fresh()),
+          "matrix of a solid on ranks");
+}
+
+/// On these numbers, not a copy.
+Vec Multigrid::Impl::vectorOf(double* values, std::size_t size) const {
+  Vec vector = nullptr;
+  const auto own = static_cast<PetscInt>(size);
+  ranks::require(comm == PETSC_COMM_SELF ? VecCreateSeqWithArray(comm, 3, own, values, &vector)
+                                   : VecCreateMPIWithArray(comm, 3, own, PETSC_DECIDE, values, &vector),
+          "vector of a solid");
+  return vector;
+}
+
+void Multigrid::Impl::setModes(std::span<const std::vector<double>> modes) {
   constexpr const char* doing = "rigid motions of a solid";
-  PetscInt size = 0;
-  require(MatGetSize(matrix, &size, nullptr), doing);
   std::vector<Vec> raw;
   std::array<Owned<Vec, VecDestroy>, 6> basis;
-  for (std::size_t k = 0; k < modes.size() / static_cast<std::size_t>(size); ++k) {
-    require(VecCreateSeq(PETSC_COMM_SELF, size, basis[k].fresh()), doing);
-    require(VecSetBlockSize(basis[k], 3), doing);
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    ranks::require(MatCreateVecs(matrix, basis[k].fresh(), nullptr), doing);
     PetscScalar* to = nullptr;
-    require(VecGetArray(basis[k], &to), doing);
-    std::copy_n(modes.begin() + static_cast<std::ptrdiff_t>(k) * size, size, to);
-    require(VecRestoreArray(basis[k], &to), doing);
+    ranks::require(VecGetArray(basis[k], &to), doing);
+    std::ranges::copy(modes[k], to);
+    ranks::require(VecRestoreArray(basis[k], &to), doing);
     for (const Vec other : raw) {
       PetscScalar along = 0.0;
-      require(VecDot(basis[k], other, &along), doing);
-      require(VecAXPY(basis[k], -along, other), doing);
+      ranks::require(VecDot(basis[k], other, &along), doing);
+      ranks::require(VecAXPY(basis[k], -along, other), doing);
     }
-    require(VecNormalize(basis[k], nullptr), doing);
+    ranks::require(VecNormalize(basis[k], nullptr), doing);
     raw.push_back(basis[k]);
   }
   Owned<MatNullSpace, MatNullSpaceDestroy> space;
-  require(
-      MatNullSpaceCreate(PETSC_COMM_SELF, PETSC_FALSE, static_cast<PetscInt>(raw.size()), raw.data(), space.fresh()),
-      doing);
-  require(MatSetNearNullSpace(matrix, space), doing);
+  ranks::require(MatNullSpaceCreate(comm, PETSC_FALSE, static_cast<PetscInt>(raw.size()), raw.data(), space.fresh()), doing);
+  ranks::require(MatSetNearNullSpace(matrix, space), doing);
 }
 
 /// By GMRES, for matrices that are not symmetric positive definite, or by conjugate gradients.
 void Multigrid::Impl::minimiseResiduals(bool minimises) {
-  using ranks::require;
   constexpr const char* doing = "multigrid of a solid";
-  require(KSPSetType(solver, minimises ? KSPGMRES : KSPCG), doing);
-  require(KSPSetPCSide(solver, minimises ? PC_RIGHT : PC_LEFT), doing);
-  require(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED), doing);
-  if (minimises) require(KSPGMRESSetRestart(solver, 60), doing);
+  ranks::require(KSPSetType(solver, minimises ? KSPGMRES : KSPCG), doing);
+  ranks::require(KSPSetPCSide(solver, minimises ? PC_RIGHT : PC_LEFT), doing);
+  ranks::require(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED), doing);
+  if (minimises) ranks::require(KSPGMRESSetRestart(solver, 60), doing);
 }
 
 bool Multigrid::Impl::isIndefinite() const {
@@ -134,56 +129,62 @@ bool Multigrid::Impl::isIndefinite() const {
 }
 
 void Multigrid::Impl::make() {
-  using ranks::require;
   constexpr const char* doing = "multigrid of a solid";
-  require(KSPCreate(PETSC_COMM_SELF, solver.fresh()), doing);
-  require(KSPSetOptionsPrefix(solver, prefix), doing);
+  ranks::require(KSPCreate(comm, solver.fresh()), doing);
+  ranks::require(KSPSetOptionsPrefix(solver, prefix), doing);
   PC pc = nullptr;
-  require(KSPGetPC(solver, &pc), doing);
-  require(PCSetType(pc, PCGAMG), doing);
+  ranks::require(KSPGetPC(solver, &pc), doing);
+  ranks::require(PCSetType(pc, PCGAMG), doing);
   suggest("-dovetail_pc_gamg_agg_nsmooths", "1");
   suggest("-dovetail_mg_levels_pc_type", "jacobi");
-  require(KSPSetFromOptions(solver), doing);
+  ranks::require(KSPSetFromOptions(solver), doing);
 }
 
-void Multigrid::take(const RowMatrix& A, std::size_t pattern, bool symmetric, std::span<const double> modes) {
-  using ranks::require;
+template <class Wrap>
+void Multigrid::Impl::take(std::size_t id, bool isSymmetric, std::span<const std::vector<double>> modes, Wrap&& wrap) {
   constexpr const char* doing = "multigrid of a solid";
-  Impl& m = *impl_;
-  const bool same = m.solver && m.pattern == pattern && m.symmetric == symmetric;
-  m.makesLevels = !same || m.cost > 1.5 * m.costAtFirst;
-  if (same) {
-    require(MatAssemblyBegin(m.matrix, MAT_FINAL_ASSEMBLY), doing);
-    require(MatAssemblyEnd(m.matrix, MAT_FINAL_ASSEMBLY), doing);
+  const bool samePattern = matrix && pattern == id;
+  const bool same = samePattern && symmetric == isSymmetric;
+  makesLevels = !same || cost > 1.5 * costAtFirst;
+  symmetric = isSymmetric;
+  pattern = id;
+  if (samePattern) {
+    ranks::require(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY), doing);
+    ranks::require(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY), doing);
   } else {
-    m.symmetric = symmetric;
-    m.pattern = pattern;
-    m.make();
-    m.wrap(A);
+    solver.reset();
+    wrap();
+    ranks::require(MatSetBlockSize(matrix, 3), doing);
   }
-  m.minimiseResiduals(!symmetric);
-  require(MatSetOption(m.matrix, MAT_SPD, symmetric ? PETSC_TRUE : PETSC_FALSE), doing);
-  if (m.makesLevels) m.setModes(modes);
-  require(KSPSetOperators(m.solver, m.matrix, m.matrix), doing);
+  if (!same) make();
+  minimiseResiduals(!symmetric);
+  ranks::require(MatSetOption(matrix, MAT_SPD, symmetric ? PETSC_TRUE : PETSC_FALSE), doing);
+  if (makesLevels) setModes(modes);
+  ranks::require(KSPSetOperators(solver, matrix, matrix), doing);
+}
+
+void Multigrid::take(RowMatrix& A, std::size_t pattern, bool symmetric, std::span<const std::vector<double>> modes) {
+  impl_->take(pattern, symmetric, modes, [&] { impl_->wrap(A); });
+}
+void Multigrid::take(SharedRows& A, std::size_t pattern, bool symmetric, std::span<const std::vector<double>> modes) {
+  impl_->take(pattern, symmetric, modes, [&] { impl_->wrap(A); });
 }
 
 bool Multigrid::Impl::iterate(std::span<double> b, double tolerance) {
-  using ranks::require;
   constexpr const char* doing = "multigrid of a solid";
-  const auto size = static_cast<PetscInt>(b.size());
   Owned<Vec, VecDestroy> right, left;
   x.assign(b.size(), 0.0);
-  require(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, size, b.data(), right.fresh()), doing);
-  require(VecCreateSeqWithArray(PETSC_COMM_SELF, 3, size, x.data(), left.fresh()), doing);
-  require(KSPSetTolerances(solver, tolerance, 1e-300, 1e10, maxIterations), doing);
-  require(KSPSetReusePreconditioner(solver, makesLevels ? PETSC_FALSE : PETSC_TRUE), doing);
-  require(KSPSolve(solver, right, left), doing);
-  require(KSPGetIterationNumber(solver, &last), doing);
+  *right.fresh() = vectorOf(b.data(), b.size());
+  *left.fresh() = vectorOf(x.data(), x.size());
+  ranks::require(KSPSetTolerances(solver, tolerance, 1e-300, 1e10, maxIterations), doing);
+  ranks::require(KSPSetReusePreconditioner(solver, makesLevels ? PETSC_FALSE : PETSC_TRUE), doing);
+  ranks::require(KSPSolve(solver, right, left), doing);
+  ranks::require(KSPGetIterationNumber(solver, &last), doing);
   iterations += last;
   cost = last / -std::log10(tolerance);
   if (std::exchange(makesLevels, false)) ++setUps, costAtFirst = cost;
   KSPConvergedReason reason{};
-  require(KSPGetConvergedReason(solver, &reason), doing);
+  ranks::require(KSPGetConvergedReason(solver, &reason), doing);
   return reason > 0;
 }
 

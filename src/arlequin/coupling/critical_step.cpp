@@ -35,7 +35,7 @@ public:
     if (parts.solid) {
       fem::Model& solid = *scene.solid;
       tangent_ = fem::zeroTangent(solid);
-      for (const auto& term : solid.terms) term->addTangent(solid.nodes, {solid.t, 0.0}, tangent_);
+      fem::addTangents(solid, {solid.t, 0.0}, tangent_);
     }
     const dem::Particles& p = grains_.particles;
     if (parts.particles) grains_.laws->addDemand(demand_, p, grains_.pairs, touch);

@@ -1,8 +1,11 @@
 #include "dovetail/fem/model/model.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/team.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
 
 namespace dovetail::fem {
@@ -13,7 +16,49 @@ linalg::MatrixPattern patternOf(const Model& model) {
   return pattern;
 }
 
-linalg::BlockMatrix zeroTangent(const Model& model) { return linalg::BlockMatrix(patternOf(model)); }
+namespace {
+
+/// A node that the parts of several ranks meet in goes to the one of them with the fewest so far.
+std::vector<int> ownersOf(const linalg::MatrixPattern& own) {
+  const std::size_t nodes = own.nodes();
+  std::vector<char> meets(nodes);
+  for (std::size_t n = 0; n < nodes; ++n) meets[n] = own.couples(n) ? 1 : 0;
+  const std::vector<std::vector<char>> all = team().gather(std::move(meets));
+  std::vector<int> owners(nodes);
+  std::vector<std::size_t> count(all.size(), 0);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    std::size_t best = all.size();
+    for (std::size_t rank = 0; rank < all.size(); ++rank)
+      if (all[rank][n] != 0 && (best == all.size() || count[rank] < count[best])) best = rank;
+    if (best == all.size()) best = 0;
+    ++count[best];
+    owners[n] = static_cast<int>(best);
+  }
+  return owners;
+}
+
+}  // namespace
+
+linalg::BlockMatrix zeroTangent(const Model& model) {
+  const auto isShared = [](const auto& term) { return term->isShared(); };
+  if (std::ranges::none_of(model.terms, isShared)) return linalg::BlockMatrix(patternOf(model));
+  linalg::MatrixPattern pattern(model.nodes.X.size());
+  for (const auto& term : model.terms)
+    if (isShared(term)) term->addPattern(pattern);
+  std::vector<int> owners = ownersOf(pattern);
+  for (const auto& term : model.terms)
+    if (!isShared(term)) term->addPattern(pattern);
+  return {std::move(pattern), std::move(owners)};
+}
+
+linalg::BlockMatrix& rowsFor(const Term& term, linalg::BlockMatrix& K) {
+  K.addOwnRowsOnly(!term.isShared());
+  return K;
+}
+
+void addTangents(const Model& model, const Instant& now, linalg::BlockMatrix& K) {
+  for (const auto& term : model.terms) term->addTangent(model.nodes, now, rowsFor(*term, K));
+}
 
 Model makeModel(const SolidMesh& mesh) {
   const std::size_t n = mesh.X.size();

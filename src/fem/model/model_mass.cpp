@@ -5,6 +5,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/team.hpp"
 
 namespace dovetail::fem {
 
@@ -115,7 +116,9 @@ void ModelMass::addTo(linalg::BlockMatrix& S, double factor) const {
     for (std::size_t c = 0; c < 3; ++c) S.values()[9 * place + 4 * c] += factor * mass;
   };
   if (fraction_ == 0.0) {
-    for (std::size_t n = 0; n < mass_.size(); ++n) add(S.place(static_cast<int>(n), static_cast<int>(n)), mass_[n]);
+    for (std::size_t n = 0; n < mass_.size(); ++n)
+      if (!S.isPart() || S.owners()[n] == team().rank())
+        add(S.place(static_cast<int>(n), static_cast<int>(n)), mass_[n]);
     return;
   }
   if (!std::ranges::equal(S.columns(), matrix_.columns()) || !std::ranges::equal(S.offsets(), matrix_.offsets()))

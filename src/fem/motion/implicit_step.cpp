@@ -166,9 +166,9 @@ bool ImplicitStep::factor(bool exact) {
       mass_.addTo(matrix_, 2.0 / (h * h));
     } else {
       const Instant now = atEnd();
-      for (const auto& term : model_.terms) term->addDamping(model_.nodes, now, matrix_);
+      for (const auto& term : model_.terms) term->addDamping(model_.nodes, now, rowsFor(*term, matrix_));
       for (double& value : matrix_.values()) value *= s.gamma / (s.beta * h);
-      for (const auto& term : model_.terms) term->addTangent(model_.nodes, now, matrix_);
+      addTangents(model_, now, matrix_);
       for (double& value : matrix_.values()) value *= 1.0 - s.alphaF;
       resolution_.measure(matrix_, model_.nodes.X);
       mass_.addTo(matrix_, (1.0 - s.alphaM) / (s.beta * h * h));
@@ -190,13 +190,13 @@ bool ImplicitStep::isSymmetric() const {
 void ImplicitStep::addMeanTangents() {
   const Instant middle = inMiddle();
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
-    if (!conserves_[k]) model_.terms[k]->addDamping(mean_, middle, matrix_);
+    if (!conserves_[k]) model_.terms[k]->addDamping(mean_, middle, rowsFor(*model_.terms[k], matrix_));
   for (double& value : matrix_.values()) value *= 2.0 / h_;
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
-    if (!conserves_[k]) model_.terms[k]->addTangent(mean_, middle, matrix_);
+    if (!conserves_[k]) model_.terms[k]->addTangent(mean_, middle, rowsFor(*model_.terms[k], matrix_));
   for (double& value : matrix_.values()) value *= 0.5;
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
-    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, atEnd(), matrix_);
+    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, atEnd(), rowsFor(*model_.terms[k], matrix_));
 }
 
 bool ImplicitStep::direct(double loosest) {

@@ -16,7 +16,7 @@ double assembledStableStep(Model& model, double accuracy) {
   const DofMap dofs(model.constraints, model.nodes);
   ModelMass mass(model, dofs, 0.0);
   linalg::BlockMatrix K = zeroTangent(model);
-  for (const auto& term : model.terms) term->addTangent(model.nodes, {model.t, 0.0}, K);
+  addTangents(model, {model.t, 0.0}, K);
   std::vector<Vec3> in(model.nodes.X.size()), out(in.size());
   const auto reduced = [&](const auto& product) {
     return [&, product](std::span<const double> x, std::span<double> y) {

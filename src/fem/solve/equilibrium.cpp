@@ -94,7 +94,7 @@ Equilibrium::Equilibrium(Model& model, const NewtonOptions& options)
 bool Equilibrium::factor(bool) {
   const auto start = Clock::now();
   K_.setZero();
-  for (const auto& term : model().terms) term->addTangent(model().nodes, now(), K_);
+  addTangents(model(), now(), K_);
   resolution_.measure(K_, model().nodes.X);
   assemblySeconds_ += since(start);
   const auto middle = Clock::now();

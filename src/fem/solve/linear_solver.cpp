@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "dovetail/core/error.hpp"
 #include "node_rows.hpp"
+#include "rank_rows.hpp"
 
 namespace dovetail::fem {
 
@@ -24,7 +26,8 @@ struct LinearSolver::Impl {
   const Nodes* nodes;
   linalg::DefiniteSolver definite;
   linalg::SparseLu lu{};
-  std::shared_ptr<detail::NodeRows> rows{};  // of multigrid, which is taken if they are there
+  std::shared_ptr<detail::NodeRows> rows{};     // of multigrid, which is taken if they are there
+  std::optional<detail::RankRows> rankRows{};  // instead, where ranks share the elements
   std::optional<linalg::Multigrid> multigrid{};
   std::size_t chosenFor = 0;  // pattern
   bool chosenSymmetric = true;
@@ -78,19 +81,44 @@ struct LinearSolver::Impl {
     rows = std::move(taken);
     multigrid.emplace(options.relativeTolerance, options.maxIterations);
   }
+  /// Where ranks share the elements there is no choice.
+  bool takeParts(const linalg::BlockMatrix& K, bool symmetric) {
+    if (nodes == nullptr)
+      throw InputError("elements are shared by ranks", "linear solver", "this is solved by one process only");
+    if (options.method != linalg::LinearMethod::automatic && options.method != linalg::LinearMethod::multigrid)
+      throw InputError("elements are shared by ranks, and the linear solver is not multigrid", "linear solver",
+                       "take multigrid, or one process");
+    if (!rankRows) {
+      rankRows.emplace(reduced.dofs());
+      multigrid.emplace(options.relativeTolerance, options.maxIterations);
+    }
+    rankRows->update(K);
+    largestDiagonal = rankRows->largestDiagonal();
+    if (!rankRows->isFinite()) return false;
+    multigrid->take(rankRows->matrix(), rankRows->patternId(), symmetric,
+                    detail::rigidModes(*nodes, reduced.dofs(), rankRows->nodes()));
+    kind = Kind::multigrid;
+    negative = -1;
+    return true;
+  }
   bool takeRows() {
-    const linalg::RowMatrix& A = rows->matrix();
+    linalg::RowMatrix& A = rows->matrix();
     largestDiagonal = rows->largestDiagonal();
     if (!std::ranges::all_of(A.value, [](double v) { return std::isfinite(v); })) return false;
-    multigrid->take(A, rows->patternId(), rows->symmetric(), detail::rigidModes(*nodes, reduced.dofs()));
+    std::vector<int> all(nodes->X.size());
+    std::iota(all.begin(), all.end(), 0);
+    multigrid->take(A, rows->patternId(), rows->symmetric(), detail::rigidModes(*nodes, reduced.dofs(), all));
     kind = Kind::multigrid;
     negative = -1;
     return true;
   }
   void iterate(std::span<double> x, double loosest) {
-    std::vector<double> all = rows->expanded(x);
-    multigrid->solve(all, loosest);
-    rows->gather(all, x);
+    const auto by = [&](const auto& taken) {
+      std::vector<double> values = taken.expanded(x);
+      multigrid->solve(values, loosest);
+      taken.gather(values, x);
+    };
+    rankRows ? by(*rankRows) : by(*rows);
   }
 
   /// A matrix that follows an indefinite one is taken for indefinite too: a failed Cholesky factorisation may cost as
@@ -129,6 +157,7 @@ bool LinearSolver::factor(const linalg::BlockMatrix& K, bool symmetric) {
   m.kind = Kind::none;
   ++m.factorisations;
   m.largestDiagonal = 0.0;
+  if (K.isPart()) return m.takeParts(K, symmetric);
   if (m.choosesMultigrid(K, symmetric)) {
     m.rows->update(K, symmetric);
     return m.takeRows();
@@ -161,10 +190,11 @@ void LinearSolver::solve(std::span<const double> r, std::span<double> x, double 
 
 void LinearSolver::save(ByteWriter& archive) const {
   const Impl& m = *impl_;
-  archive(static_cast<int>(m.kind), m.wasIndefinite);
-  if (m.kind == Kind::multigrid)
+  const Kind kind = m.rankRows ? Kind::none : m.kind;  // rows of ranks are made anew
+  archive(static_cast<int>(kind), m.wasIndefinite);
+  if (kind == Kind::multigrid)
     m.rows->save(archive);
-  else if (m.kind != Kind::none)
+  else if (kind != Kind::none)
     m.reduced.save(archive);
 }
 
@@ -209,7 +239,7 @@ void LinearSolver::adopt(Factored state) {
 
 bool LinearSolver::factored() const { return impl_->kind != Kind::none; }
 bool LinearSolver::iterates() const { return impl_->definite.iterates() || hasMultigrid(); }
-bool LinearSolver::hasMultigrid() const { return impl_->rows != nullptr; }
+bool LinearSolver::hasMultigrid() const { return impl_->rows != nullptr || impl_->rankRows.has_value(); }
 void LinearSolver::drop() { impl_->kind = Kind::none; }
 int LinearSolver::negativePivots() const { return impl_->negative; }
 double LinearSolver::largestDiagonal() const { return impl_->largestDiagonal; }

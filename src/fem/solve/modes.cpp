@@ -33,8 +33,10 @@ public:
       if (!term->isSymmetric())
         throw InputError("the tangent of \"" + term->name() + "\" is not symmetric, so that there may be no modes",
                          "modesOf", "leave it out");
-      term->addTangent(model.nodes, {.t = model.t}, K_);
     }
+    if (K_.isPart())
+      throw InputError("elements are shared by ranks", "modesOf", "find modes by one process");
+    addTangents(model, {.t = model.t}, K_);
     linalg::BlockMatrix shifted = K_;
     shift_ = shift();
     mass_.addTo(shifted, shift_);

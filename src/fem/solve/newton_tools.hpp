@@ -2,11 +2,13 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
 
 #include "dovetail/core/parallel.hpp"
+#include "dovetail/core/team.hpp"
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/linalg/block_matrix.hpp"
 
@@ -49,6 +51,11 @@ public:
         for (std::size_t c = 0; other == n && c < 3; ++c) stiffest_ = std::max(stiffest_, std::abs(block[4 * c]));
       }
       worstSquares += sum * sum;
+    }
+    if (K.isPart()) {
+      std::array sums{squares, worstSquares};
+      team().sum(sums);
+      squares = sums[0], worstSquares = sums[1], stiffest_ = team().largest(stiffest_);
     }
     ofStrain_ = std::numeric_limits<double>::epsilon() * std::sqrt(squares);
     worstOfStrain_ = std::numeric_limits<double>::epsilon() * std::sqrt(worstSquares);

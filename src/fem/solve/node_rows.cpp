@@ -18,7 +18,7 @@ void requireNumbers(std::size_t entries) {
 
 }  // namespace
 
-const linalg::RowMatrix& NodeRows::update(const linalg::BlockMatrix& K, bool symmetric) {
+linalg::RowMatrix& NodeRows::update(const linalg::BlockMatrix& K, bool symmetric) {
   symmetric_ = symmetric;
   if (dofs_->hasTies()) {
     takeTied(tied_.update(K, false));
@@ -140,37 +140,28 @@ void NodeRows::load(ByteReader& archive, const linalg::BlockMatrix& K) {
   rows_.value = std::move(values);
 }
 
-namespace {
-
-/// One rigid motion of all nodes about their centre.
-std::vector<double> rigidMode(const Nodes& nodes, const Vec3& centre, const Vec3& along, const Vec3& about) {
-  std::vector<double> mode;
-  mode.reserve(3 * nodes.X.size());
-  for (std::size_t n = 0; n < nodes.X.size(); ++n) {
-    const Vec3 u = along + cross(about, nodes.X[n] + nodes.u[n] - centre);
-    for (int c = 0; c < 3; ++c) mode.push_back(u[c]);
-  }
-  return mode;
-}
-
-}  // namespace
-
-std::vector<double> rigidModes(const Nodes& nodes, const DofMap& dofs) {
+std::vector<std::vector<double>> rigidModes(const Nodes& nodes, const DofMap& dofs, std::span<const int> which) {
   constexpr double noPart = 1e-20;
   Vec3 centre;
   for (std::size_t n = 0; n < nodes.X.size(); ++n) centre += nodes.X[n] + nodes.u[n];
   centre *= 1.0 / static_cast<double>(nodes.X.size());
-  std::vector<double> modes;
+  std::vector<std::vector<double>> modes;
   for (int axis = 0; axis < 6; ++axis) {
     Vec3 along, about;
     (axis < 3 ? along : about)[axis % 3] = 1.0;
-    const std::vector<double> mode = rigidMode(nodes, centre, along, about);
+    const auto motionOf = [&](std::size_t n) { return along + cross(about, nodes.X[n] + nodes.u[n] - centre); };
     double all = 0.0, free = 0.0;
-    for (std::size_t row = 0; row < mode.size(); ++row) {
-      all += mode[row] * mode[row];
-      if (dofs.freeRow()[row] >= 0) free += mode[row] * mode[row];
-    }
-    if (free > noPart * all) modes.insert(modes.end(), mode.begin(), mode.end());
+    for (std::size_t n = 0; n < nodes.X.size(); ++n)
+      for (int c = 0; c < 3; ++c) {
+        const double square = motionOf(n)[c] * motionOf(n)[c];
+        all += square;
+        if (dofs.freeRow()[3 * n + static_cast<std::size_t>(c)] >= 0) free += square;
+      }
+    if (!(free > noPart * all)) continue;
+    std::vector<double>& mode = modes.emplace_back();
+    mode.reserve(3 * which.size());
+    for (const int n : which)
+      for (int c = 0; c < 3; ++c) mode.push_back(motionOf(static_cast<std::size_t>(n))[c]);
   }
   return modes;
 }

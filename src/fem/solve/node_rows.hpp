@@ -17,12 +17,12 @@ class NodeRows {
 public:
   explicit NodeRows(const DofMap& dofs) : dofs_(&dofs), tied_(dofs) {}
   /// @param symmetric  of K
-  const linalg::RowMatrix& update(const linalg::BlockMatrix& K, bool symmetric);
+  linalg::RowMatrix& update(const linalg::BlockMatrix& K, bool symmetric);
   bool symmetric() const { return symmetric_; }
   void save(ByteWriter& archive) const { archive(symmetric_, rows_.value); }
   /// What save() wrote. @throws InputError if it is not for the pattern of K, or not finite
   void load(ByteReader& archive, const linalg::BlockMatrix& K);
-  const linalg::RowMatrix& matrix() const { return rows_; }
+  linalg::RowMatrix& matrix() { return rows_; }
   std::size_t patternId() const { return patternId_; }
   /// Largest entry on the diagonal, N/m.
   double largestDiagonal() const { return largestDiagonal_; }
@@ -46,8 +46,9 @@ private:
   bool symmetric_ = true;
 };
 
-/// Displacements that strain nothing to first order about the present places, columns of three components a node: along
-/// x, y, z, and about axes through the centre; those that free components can take part in.
-std::vector<double> rigidModes(const Nodes& nodes, const DofMap& dofs);
+/// Displacements that strain nothing to first order about the present places: along x, y, z, and about axes through the
+/// centre; those that free components can take part in.
+/// @param which  nodes that are wanted @return three components of each of them
+std::vector<std::vector<double>> rigidModes(const Nodes& nodes, const DofMap& dofs, std::span<const int> which);
 
 }  // namespace dovetail::fem::detail

@@ -63,6 +63,7 @@ private:
   }
   void addTo(linalg::BlockMatrix& K, double factor) const {
     for (std::size_t n = 0; n < A_.nodes(); ++n) {
+      if (!K.takes(static_cast<int>(n))) continue;
       auto place = static_cast<std::size_t>(K.offsets()[n]);
       for (auto own = static_cast<std::size_t>(A_.offsets()[n]); own < static_cast<std::size_t>(A_.offsets()[n + 1]);
            ++own, ++place) {

@@ -1,17 +1,16 @@
 #include "farmed_field.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <exception>
-#include <new>
 #include <numeric>
 #include <random>
 #include <string>
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/failure.hpp"
 #include "dovetail/core/lost_error.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/rve/rve_archive.hpp"
@@ -29,16 +28,12 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 
 /// @throws what has gone wrong there
 void requireDone(int rank, ByteReader& reply) {
-  Outcome outcome{};
-  reply(outcome);
-  if (outcome == Outcome::done) return;
+  Failure failure{};
+  reply(failure);
+  if (failure == Failure::none) return;
   std::string text;
   reply(text);
-  const std::string where = "rank " + std::to_string(rank);
-  if (outcome == Outcome::inputError) throw InputError(text, where, "");
-  if (outcome == Outcome::numericalError) throw NumericalError(text, where, "");
-  if (outcome == Outcome::lost) throw LostError(text, where, "");
-  throw Error(text, where, "");
+  raise(failure, text, "rank " + std::to_string(rank));
 }
 
 /// Letters that nobody has read would be taken for answers to later ones.

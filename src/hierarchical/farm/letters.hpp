@@ -79,13 +79,4 @@ void archiveFields(Archive& archive, AnyAnswers& answers) {
           answers.threads);
 }
 
-/// How a reply begins: what went wrong, as a kind and a text.
-enum class Outcome : std::uint8_t {
-  done,
-  inputError,
-  numericalError,
-  otherError,
-  lost  ///< the points there are not what rank 0 takes them for
-};
-
 }  // namespace dovetail::hierarchical

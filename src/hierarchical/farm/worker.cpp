@@ -1,10 +1,10 @@
 #include "worker.hpp"
 
-#include <new>
 #include <tuple>
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/failure.hpp"
 
 namespace dovetail::hierarchical {
 
@@ -14,30 +14,15 @@ bool wantsReply(Verb verb) {
   return verb == Verb::give || verb == Verb::copy || verb == Verb::count || verb == Verb::evaluate;
 }
 
-/// What is being thrown.
-std::pair<Outcome, std::string> failureNow() {
-  try {
-    throw;
-  } catch (const InputError& error) {
-    return {Outcome::inputError, error.what()};
-  } catch (const NumericalError& error) {
-    return {Outcome::numericalError, error.what()};
-  } catch (const std::bad_alloc&) {
-    return {Outcome::lost, "there is not enough memory for the cells of this rank"};
-  } catch (const std::exception& error) {
-    return {Outcome::otherError, error.what()};
-  }
-}
-
-std::vector<char> replyOf(Outcome outcome, const std::string& failure) {
+std::vector<char> replyOf(Failure failure, const std::string& text) {
   ByteWriter reply;
-  reply(outcome, failure);
+  reply(failure, text);
   return reply.take();
 }
 
 /// What letters say that want a reply.
 void ask(FarmShare& share, Verb verb, ByteReader& letter, ByteWriter& reply) {
-  reply(Outcome::done);
+  reply(Failure::none);
   if (verb == Verb::evaluate) {
     Question question;
     letter(question);
@@ -78,30 +63,30 @@ std::optional<std::vector<char>> FarmWorker::answer(std::vector<char> letter) {
   }
   Field& field = fields_[number];
   if (wantsReply(verb)) {
-    if (field.outcome != Outcome::done) return replyOf(Outcome::lost, field.failure);
+    if (field.failure != Failure::none) return replyOf(Failure::lost, field.text);
     ByteWriter reply;
     try {
       ask(field.share.value(), verb, reader, reply);
     } catch (...) {
-      const auto [outcome, failure] = failureNow();
-      return replyOf(outcome, failure);
+      const auto [failure, text] = failureNow();
+      return replyOf(failure, text);
     }
     return reply.take();
   }
   if (verb == Verb::clear && field.share) {
     field.share->clear();
-    field.outcome = Outcome::done;
+    field.failure = Failure::none;
     return {};
   }
   try {
     if (verb == Verb::open) {
       field = {};
       field.share.emplace(readRecipe(reader));
-    } else if (field.outcome == Outcome::done) {
+    } else if (field.failure == Failure::none) {
       tell(field.share.value(), verb, reader);
     }
   } catch (...) {
-    std::tie(field.outcome, field.failure) = failureNow();
+    std::tie(field.failure, field.text) = failureNow();
   }
   return {};
 }

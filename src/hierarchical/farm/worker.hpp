@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/failure.hpp"
 #include "share.hpp"
 
 namespace dovetail::hierarchical {
@@ -20,8 +21,8 @@ private:
   /// that for an answer until it is opened or cleared.
   struct Field {
     std::optional<FarmShare> share;
-    Outcome outcome = Outcome::done;
-    std::string failure;
+    Failure failure = Failure::none;
+    std::string text;
   };
 
   std::map<std::uint64_t, Field> fields_;

@@ -4,8 +4,10 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/team.hpp"
 #include "dovetail/fem/model/model.hpp"
 #include "solid_base.hpp"
+#include "solid_on_ranks.hpp"
 
 namespace dovetail::fem {
 
@@ -17,19 +19,9 @@ bool asksOnce(Formulation formulation) {
          formulation == Formulation::reduced;
 }
 
-std::shared_ptr<Solid> makeSolidOf(const SolidMesh& mesh, std::unique_ptr<detail::SolidPoints> points,
+std::shared_ptr<Solid> makeSolidOf(detail::SolidCells cells, std::unique_ptr<detail::SolidPoints> points,
                                    const SolidOptions& options) {
-  validate(mesh);
-  detail::requireFraction(options.fraction, mesh.X.size());
-  detail::SolidCells cells = detail::cellsOf(mesh, options.elementSet, options.fraction);
-  const bool anyShape =
-      options.formulation == Formulation::standard || options.formulation == Formulation::meanDilatation;
   const bool reducedPlane = options.formulation == Formulation::reduced && cells.shape == ElementShape::quad8;
-  if (!anyShape && !reducedPlane && cells.shape != ElementShape::hex8)
-    throw InputError(std::string("the formulation \"") + name(options.formulation) + "\" is for hex8" +
-                         (options.formulation == Formulation::reduced ? " and quad8" : "") + ", not for " +
-                         name(cells.shape),
-                     "elements", "take the standard formulation, or a mesh of hex8");
   switch (options.formulation) {
     case Formulation::meanDilatation:
       return detail::makeMeanDilatationSolid(std::move(cells), std::move(points), options);
@@ -46,6 +38,22 @@ std::shared_ptr<Solid> makeSolidOf(const SolidMesh& mesh, std::unique_ptr<detail
   }
 }
 
+/// @throws InputError as makeSolid()
+detail::SolidCells cellsFor(const SolidMesh& mesh, const SolidOptions& options) {
+  validate(mesh);
+  detail::requireFraction(options.fraction, mesh.X.size());
+  detail::SolidCells cells = detail::cellsOf(mesh, options.elementSet, options.fraction);
+  const bool anyShape =
+      options.formulation == Formulation::standard || options.formulation == Formulation::meanDilatation;
+  const bool reducedPlane = options.formulation == Formulation::reduced && cells.shape == ElementShape::quad8;
+  if (!anyShape && !reducedPlane && cells.shape != ElementShape::hex8)
+    throw InputError(std::string("the formulation \"") + name(options.formulation) + "\" is for hex8" +
+                         (options.formulation == Formulation::reduced ? " and quad8" : "") + ", not for " +
+                         name(cells.shape),
+                     "elements", "take the standard formulation, or a mesh of hex8");
+  return cells;
+}
+
 }  // namespace
 
 const char* name(Formulation formulation) {
@@ -55,7 +63,11 @@ const char* name(Formulation formulation) {
 
 std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const PointMaterial> material,
                                  const SolidOptions& options) {
-  return makeSolidOf(mesh, detail::pointsOf(std::move(material)), options);
+  detail::SolidCells cells = cellsFor(mesh, options);
+  if (!options.onRanks || team().size() == 1)
+    return makeSolidOf(std::move(cells), detail::pointsOf(std::move(material)), options);
+  const std::vector<std::vector<int>> numbers = detail::keepShare(cells);
+  return detail::solidOnRanks(makeSolidOf(std::move(cells), detail::pointsOf(std::move(material)), options), numbers);
 }
 
 std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointField> field,
@@ -64,7 +76,7 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointFie
     throw InputError(std::string("the formulation \"") + name(options.formulation) +
                          "\" evaluates points repeatedly, or needs a law, not a field",
                      "elements", "take the formulation standard, mean dilatation or reduced");
-  return makeSolidOf(mesh, detail::pointsOf(std::move(field)), options);
+  return makeSolidOf(cellsFor(mesh, options), detail::pointsOf(std::move(field)), options);
 }
 
 }  // namespace dovetail::fem

@@ -108,6 +108,16 @@ SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::span<cons
   return cells;
 }
 
+void keep(SolidCells& cells, std::span<const int> elements) {
+  std::vector<int> node, number;
+  for (const int e : elements) {
+    for (std::size_t a = 0; a < cells.nodes; ++a) node.push_back(cells.nodeOf(static_cast<std::size_t>(e), a));
+    number.push_back(cells.number[static_cast<std::size_t>(e)]);
+  }
+  cells.number = std::move(number);
+  fillBatches(node, cells);
+}
+
 std::vector<PointGeometry> geometryAt(const SolidCells& cells, const CellRule& rule) {
   const std::size_t n = cells.nodes, q = rule.point.size();
   std::vector<PointGeometry> geometry(cells.batches() * q);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
@@ -33,6 +35,9 @@ void requireFraction(std::span<const double> fraction, std::size_t nodes);
 /// The elements of a set, of all if its name is empty, but those whose nodes all have the fraction 0.
 /// @throws InputError if they are of several shapes, or none is left
 SolidCells cellsOf(const SolidMesh& mesh, const std::string& set, std::span<const double> fraction);
+
+/// Leaves these elements, ascending.
+void keep(SolidCells& cells, std::span<const int> elements);
 
 /// ∂ξ/∂X, row-major, and weight (det ∂X/∂ξ times that of the rule and the fraction; 0 in lanes that repeat) at one
 /// point of a batch.

@@ -19,6 +19,8 @@ public:
   void add(std::span<const int> group);
   /// Couples all pairs of another matrix.
   void add(const NodePairs& pairs);
+  /// Whether a group has the node.
+  bool couples(std::size_t node) const { return !neighbours_[node].empty(); }
   std::size_t nodes() const { return neighbours_.size(); }
 
 private:
@@ -71,6 +73,17 @@ public:
   explicit BlockMatrix(MatrixPattern pattern);
   /// With an entry for each of the pairs; all zero.
   explicit BlockMatrix(const NodePairs& pairs);
+  /// One of a sum over the ranks of team(): to be called by all of them.
+  /// @param owners  the rank of each node: its row is whole there, once the ranks have told each other theirs
+  BlockMatrix(MatrixPattern pattern, std::vector<int> owners);
+
+  /// Empty unless it is one of a sum over ranks.
+  std::span<const int> owners() const { return owners_; }
+  bool isPart() const { return !owners_.empty(); }
+  /// From now on add() and addBlock() leave out rows of other ranks: for what all ranks add alike.
+  void addOwnRowsOnly(bool only) { ownRowsOnly_ = only && isPart(); }
+  /// Whether they take that row.
+  bool takes(int row) const;
 
   std::span<const double> values() const { return values_; }
   std::span<double> values() { return values_; }
@@ -84,11 +97,14 @@ public:
   /// A = ½(A + Aᵀ).
   void symmetrise();
 
-  /// y = A x, in the order of the rows: the same digits for any number of threads.
+  /// y = A x, in the order of the rows: the same digits for any number of threads. Of a sum over ranks: of all of it,
+  /// by all of them.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
 
 private:
   std::vector<double> values_;
+  std::vector<int> owners_;
+  bool ownRowsOnly_ = false;
 };
 
 }  // namespace dovetail::linalg

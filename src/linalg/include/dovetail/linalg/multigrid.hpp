@@ -17,6 +17,13 @@ struct RowMatrix {
   std::vector<double> value;
 };
 
+/// The rows of one rank of team(): those of rank 0 come first.
+struct SharedRows {
+  RowMatrix own;            ///< square: the columns of this rank, from 0
+  RowMatrix others;         ///< those of other ranks, as numbered among all; Multigrid writes other numbers there
+  std::vector<int> firsts;  ///< first row of each rank, and the number of all
+};
+
 /// Smoothed aggregation (PETSc's GAMG, after Vanek, Mandel and Brezina 1996, Computing 56, 179) as preconditioner of
 /// conjugate gradients, or of GMRES where the matrix is not symmetric. Iterations hardly grow with the mesh, and memory
 /// grows as it does. Digits depend on the release of PETSc, not on the number of threads.
@@ -36,9 +43,11 @@ public:
   /// well.
   /// @param A  blocks of 3 rows; is read until the next call, and stays where it is
   /// @param symmetric  and positive definite
-  /// @param modes  motions that strain nothing, columns of A.size, one after the other; read for new levels only
+  /// @param modes  motions that strain nothing, numbers of A.size; read for new levels only
   /// @throws NumericalError as PETSc says it
-  void take(const RowMatrix& A, std::size_t pattern, bool symmetric, std::span<const double> modes);
+  void take(RowMatrix& A, std::size_t pattern, bool symmetric, std::span<const std::vector<double>> modes);
+  /// The same by all ranks of a team, each with its rows of A and of the modes; so is solve() then.
+  void take(SharedRows& A, std::size_t pattern, bool symmetric, std::span<const std::vector<double>> modes);
   /// Overwrites b by A⁻¹ b, from new levels if those kept do not converge.
   /// @param loosest  relative residual that is enough, if above the tolerance
   /// @throws NumericalError if it does not converge

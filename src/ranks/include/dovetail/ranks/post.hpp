@@ -6,6 +6,8 @@
 
 namespace dovetail::ranks {
 
+class Companions;
+
 /// Each rank has its own, made after start() on all ranks. Not for threads.
 class Post {
 public:
@@ -30,12 +32,9 @@ public:
 
 private:
   struct Sent;
-  template <class Done>
-  void waitWithAll(Done&& done) const;
-  void requireAll() const;
 
   std::vector<std::unique_ptr<Sent>> sent_;
-  std::vector<long> processes_;  ///< of all ranks; 0 for this one and those that cannot be seen from here
+  std::unique_ptr<const Companions> companions_;
 };
 
 }  // namespace dovetail::ranks

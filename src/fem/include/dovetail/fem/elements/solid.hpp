@@ -48,6 +48,9 @@ struct SolidOptions {
   /// Per node of the mesh, 0 … 1, interpolated to the points of every integral (energy, force, mass, tangent): the
   /// fraction of the solid where it overlaps something else. Empty = 1. Elements whose nodes all have 0 are left out.
   std::vector<double> fraction{};
+  /// Each rank of team() computes a part of the elements, of a material, and has a part of the matrix: for solids that
+  /// multigrid solves. All ranks then make all calls.
+  bool onRanks = false;
 };
 
 /// Elements of a mesh with one material or one field of points.

@@ -43,8 +43,13 @@ bool ownsNodes(const Model& model);
 
 /// The groups of nodes that the terms couple.
 linalg::MatrixPattern patternOf(const Model& model);
-/// A matrix with a block for every pair of nodes that a term couples; all zero.
+/// A matrix with a block for every pair of nodes that a term couples; all zero. Where terms are shared by ranks, one of
+/// a sum over them: of the pairs that this rank's part couples, and those of the other terms.
 linalg::BlockMatrix zeroTangent(const Model& model);
+/// The matrix for what the term adds: of terms that are not shared, each rank takes the rows of its nodes.
+linalg::BlockMatrix& rowsFor(const Term& term, linalg::BlockMatrix& K);
+/// K += tangents of all terms.
+void addTangents(const Model& model, const Instant& now, linalg::BlockMatrix& K);
 
 /// f = Σ forces of the terms at nodes.u, v.
 void evaluateForces(Model& model, const Instant& now);

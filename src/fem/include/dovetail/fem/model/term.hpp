@@ -76,6 +76,9 @@ public:
   virtual bool isBody() const { return false; }
   /// Whether it acts among the nodes alone, as elements do: its forces have no sum and no moment.
   virtual bool actsWithin() const { return false; }
+  /// Whether each rank of team() has a part of it: all of them call whatever they call, and have the same answers, but
+  /// each adds to a matrix what its own part says.
+  virtual bool isShared() const { return false; }
 
   /// Whether energy() is a function of the state whose negative gradient is the force (up to what commit() books).
   /// Work of terms without is booked by the integrator as it is done.

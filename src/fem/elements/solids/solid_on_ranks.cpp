@@ -1,0 +1,227 @@
+#include "solid_on_ranks.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/team.hpp"
+#include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/linalg/partition.hpp"
+
+namespace dovetail::fem::detail {
+
+namespace {
+
+std::span<double> numbersOf(std::span<Vec3> field) {
+  return {field.empty() ? nullptr : &field[0].x, 3 * field.size()};
+}
+
+class SolidOnRanks final : public Solid {
+public:
+  SolidOnRanks(std::shared_ptr<Solid> share, const std::vector<std::vector<int>>& numbers) : share_(std::move(share)) {
+    std::vector<int> all;
+    for (const std::vector<int>& rank : numbers) all.insert(all.end(), rank.begin(), rank.end());
+    order_.resize(all.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::ranges::sort(order_, {}, [&](std::size_t k) { return all[k]; });
+    numbers_ = std::move(all);
+    std::ranges::sort(numbers_);
+  }
+
+  std::string name() const override { return share_->name(); }
+  bool isShared() const override { return true; }
+  bool usesVelocity() const override { return share_->usesVelocity(); }
+  bool feelsRates() const override { return share_->feelsRates(); }
+  bool isSymmetric() const override { return share_->isSymmetric(); }
+  bool hasEnergy() const override { return share_->hasEnergy(); }
+  std::size_t size() const override { return numbers_.size(); }
+  /// Of this rank.
+  std::size_t memory() const override { return share_->memory(); }
+  const PointMaterial* material() const override { return share_->material(); }
+  const PointField* field() const override { return nullptr; }
+  double density() const override { return share_->density(); }
+  std::span<const double> fraction() const override { return share_->fraction(); }
+  ElementShape shape() const override { return share_->shape(); }
+  Formulation formulation() const override { return share_->formulation(); }
+  int number(std::size_t e) const override { return numbers_[e]; }
+
+  void addForces(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    addSum(f, [&](std::span<Vec3> own) { share_->addForces(nodes, now, own); });
+  }
+  double addForcesAndEnergy(const Nodes& nodes, const Instant& now, std::span<Vec3> f) override {
+    double energy = 0.0;
+    addSum(f, [&](std::span<Vec3> own) { energy = share_->addForcesAndEnergy(nodes, now, own); });
+    return team().sum(energy);
+  }
+  bool addConservingForces(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
+                           std::span<Vec3> f) override {
+    bool has = false;
+    addSum(f, [&](std::span<Vec3> own) { has = share_->addConservingForces(nodes, u0, now, own); });
+    return has;
+  }
+  void addPattern(linalg::MatrixPattern& pattern) const override { share_->addPattern(pattern); }
+  void addTangent(const Nodes& nodes, const Instant& now, linalg::BlockMatrix& K) override {
+    together([&] { share_->addTangent(nodes, now, K); });
+  }
+  void addConservingTangent(const Nodes& nodes, std::span<const Vec3> u0, const Instant& now,
+                            linalg::BlockMatrix& K) override {
+    together([&] { share_->addConservingTangent(nodes, u0, now, K); });
+  }
+  double energy(const Nodes& nodes, const Instant& now) override {
+    return sumOf([&] { return share_->energy(nodes, now); });
+  }
+  double hourglassEnergy(const Nodes& nodes) override {
+    return sumOf([&] { return share_->hourglassEnergy(nodes); });
+  }
+  double commit(const Nodes& nodes, const Instant& now) override {
+    return sumOf([&] { return share_->commit(nodes, now); });
+  }
+  void revert() override { share_->revert(); }
+  void requireValid(const Nodes& nodes, const std::string& when, Scrutiny scrutiny) override {
+    together([&] { share_->requireValid(nodes, when, scrutiny); });
+  }
+  std::optional<StableStep> stableStep(const Nodes& nodes) override {
+    std::optional<StableStep> own;
+    together([&] { own = share_->stableStep(nodes); });
+    ByteWriter letter;
+    letter(own.has_value());
+    if (own) letter(own->dt, own->owner, own->element);
+    for (std::vector<char>& arrived : team().gather(letter.take())) {
+      ByteReader reader(std::move(arrived));
+      bool has = false;
+      reader(has);
+      if (!has) continue;
+      StableStep other;
+      reader(other.dt, other.owner, other.element);
+      other.solid = name();
+      if (!own || other.dt < own->dt) own = other;
+    }
+    return own;
+  }
+
+  void addMass(std::span<double> mass) const override {
+    addSum(mass, [&](std::span<double> own) { share_->addMass(own); });
+  }
+  void addBodyMass(std::span<double> mass) const override {
+    addSum(mass, [&](std::span<double> own) { share_->addBodyMass(own); });
+  }
+  void addConsistentMass(linalg::NodeMatrix&) const override {
+    throw InputError("elements are shared by ranks, and the mass is not lumped", "elements \"" + name() + "\"",
+                     "take a lumped mass, or one process");
+  }
+
+  void save(ByteWriter& archive) const override {
+    ByteWriter own;
+    share_->save(own);
+    archive(team().size());
+    for (const std::vector<char>& state : team().gather(own.take())) archive(state);
+  }
+  void load(ByteReader& archive) override {
+    int ranks = 0;
+    archive(ranks);
+    if (ranks != team().size())
+      throw InputError("the state of the elements was saved by " + std::to_string(ranks) + " ranks, not by " +
+                           std::to_string(team().size()),
+                       "elements \"" + name() + "\"", "load it on as many");
+    std::vector<char> state, own;
+    for (int rank = 0; rank < team().size(); ++rank) {
+      archive(state);
+      if (rank == team().rank()) own = std::move(state);
+    }
+    together([&] {
+      ByteReader reader(std::move(own));
+      share_->load(reader);
+    });
+  }
+
+  std::vector<double> elementEnergies(const Nodes& nodes, const Instant& now) override {
+    std::vector<double> own;
+    together([&] { own = share_->elementEnergies(nodes, now); });
+    return inOrder(std::span<const double>(own));
+  }
+  Sample sample(const Nodes& nodes, const Instant& now) override {
+    Sample own;
+    together([&] { own = share_->sample(nodes, now); });
+    return {.element = inOrder<int>(own.element),
+            .X = inOrder<Vec3>(own.X),
+            .volume = inOrder<double>(own.volume),
+            .F = inOrder<double>(own.F),
+            .P = inOrder<double>(own.P),
+            .energy = inOrder<double>(own.energy),
+            .history = inOrder<double>(own.history)};
+  }
+
+private:
+  template <class Act>
+  double sumOf(Act&& act) {
+    double own = 0.0;
+    together([&] { own = act(); });
+    return team().sum(own);
+  }
+  template <class T, class Act>
+  void addSum(std::span<T> to, Act&& act) const {
+    std::vector<T> own(to.size());
+    together([&] { act(std::span<T>(own)); });
+    if constexpr (std::is_same_v<T, Vec3>)
+      team().sum(numbersOf(own));
+    else
+      team().sum(own);
+    for (std::size_t n = 0; n < to.size(); ++n) to[n] += own[n];
+  }
+  /// What there are so many of for each element, from all ranks, elements ascending.
+  template <class T>
+  std::vector<T> inOrder(std::span<const T> own) const {
+    ByteWriter letter;
+    letter(std::vector<T>(own.begin(), own.end()));
+    std::vector<T> all;
+    for (std::vector<char>& arrived : team().gather(letter.take())) {
+      ByteReader reader(std::move(arrived));
+      std::vector<T> part;
+      reader(part);
+      all.insert(all.end(), part.begin(), part.end());
+    }
+    const std::size_t each = all.size() / order_.size();
+    std::vector<T> sorted;
+    sorted.reserve(all.size());
+    for (const std::size_t from : order_)
+      sorted.insert(sorted.end(), all.begin() + static_cast<std::ptrdiff_t>(from * each),
+                    all.begin() + static_cast<std::ptrdiff_t>((from + 1) * each));
+    return sorted;
+  }
+
+  std::shared_ptr<Solid> share_;
+  std::vector<int> numbers_;        // of all ranks, ascending
+  std::vector<std::size_t> order_;  // of those, rank after rank
+};
+
+}  // namespace
+
+std::vector<std::vector<int>> keepShare(SolidCells& cells) {
+  const auto ranks = static_cast<std::size_t>(team().size());
+  const int each = cornersOf(cells.shape);
+  std::vector<int> corners;
+  corners.reserve(cells.size() * static_cast<std::size_t>(each));
+  for (std::size_t e = 0; e < cells.size(); ++e)
+    for (int a = 0; a < each; ++a) corners.push_back(cells.nodeOf(e, static_cast<std::size_t>(a)));
+  std::vector<int> owner = linalg::partitionCells(dimensionOf(cells.shape), cells.X.size(), each, corners);
+  std::vector<std::vector<int>> numbers(ranks);
+  std::vector<int> own;
+  for (std::size_t e = 0; e < owner.size(); ++e) {
+    numbers[static_cast<std::size_t>(owner[e])].push_back(cells.number[e]);
+    if (owner[e] == team().rank()) own.push_back(static_cast<int>(e));
+  }
+  if (std::ranges::any_of(numbers, [](const auto& rank) { return rank.empty(); }))
+    throw InputError(std::to_string(owner.size()) + " elements are too few for " + std::to_string(ranks) + " ranks",
+                     "elements", "take fewer ranks");
+  keep(cells, own);
+  return numbers;
+}
+
+std::shared_ptr<Solid> solidOnRanks(std::shared_ptr<Solid> share, const std::vector<std::vector<int>>& numbers) {
+  return std::make_shared<SolidOnRanks>(std::move(share), numbers);
+}
+
+}  // namespace dovetail::fem::detail

@@ -1,0 +1,18 @@
+// A solid whose elements are dealt to the ranks of a team.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "dovetail/fem/elements/solid.hpp"
+#include "solid_cells.hpp"
+
+namespace dovetail::fem::detail {
+
+/// Leaves the elements that are this rank's. @return numbers in the mesh of those of all ranks, rank after rank
+std::vector<std::vector<int>> keepShare(SolidCells& cells);
+
+/// @param share  with the elements of this rank @param numbers  what keepShare() has returned
+std::shared_ptr<Solid> solidOnRanks(std::shared_ptr<Solid> share, const std::vector<std::vector<int>>& numbers);
+
+}  // namespace dovetail::fem::detail

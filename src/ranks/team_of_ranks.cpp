@@ -1,0 +1,114 @@
+#include "dovetail/ranks/team_of_ranks.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "companions.hpp"
+#include "dovetail/core/error.hpp"
+#include "dovetail/core/team.hpp"
+#include "dovetail/ranks/session.hpp"
+
+namespace dovetail::ranks {
+
+namespace {
+
+constexpr const char* doing = "sharing between ranks";
+
+/// Sizes and places of letters that lie one after the other.
+struct Layout {
+  std::vector<int> size, first;
+  std::size_t all = 0;
+
+  explicit Layout(std::vector<int> sizes) : size(std::move(sizes)), first(size.size(), 0) {
+    for (std::size_t k = 0; k < size.size(); all += static_cast<std::size_t>(size[k]), ++k) {
+      if (all > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw NumericalError("what ranks have for each other is 2 GiB or more", "ranks", "take more ranks");
+      first[k] = static_cast<int>(all);
+    }
+  }
+  std::vector<std::vector<char>> cut(const std::vector<char>& bytes) const {
+    std::vector<std::vector<char>> letters;
+    for (std::size_t k = 0; k < size.size(); ++k)
+      letters.emplace_back(bytes.begin() + first[k], bytes.begin() + first[k] + size[k]);
+    return letters;
+  }
+};
+
+class RankTeam final : public Team {
+public:
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+
+  /// On the first rank, which tells the others.
+  void sum(std::span<double> values) override {
+    constexpr std::size_t most = 1 << 27;
+    for (; values.size() > most; values = values.subspan(most)) sumOf(values.first(most));
+    sumOf(values);
+  }
+  std::vector<std::vector<char>> gather(std::vector<char> own) override {
+    const Layout layout(sizesOf(own.size()));
+    std::vector<char> all(layout.all);
+    MPI_Request request = MPI_REQUEST_NULL;
+    require(MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, all.data(), layout.size.data(),
+                            layout.first.data(), MPI_BYTE, ownCommunicator(), &request),
+            doing);
+    companions_.wait(request, doing);
+    return layout.cut(all);
+  }
+  std::vector<std::vector<char>> exchange(std::vector<std::vector<char>> letters) override {
+    std::vector<int> sizes, arriving(letters.size());
+    std::vector<char> out;
+    for (const std::vector<char>& letter : letters) {
+      sizes.push_back(static_cast<int>(letter.size()));
+      out.insert(out.end(), letter.begin(), letter.end());
+    }
+    const Layout going(std::move(sizes));
+    MPI_Request request = MPI_REQUEST_NULL;
+    require(MPI_Ialltoall(going.size.data(), 1, MPI_INT, arriving.data(), 1, MPI_INT, ownCommunicator(), &request),
+            doing);
+    companions_.wait(request, doing);
+    const Layout coming(std::move(arriving));
+    std::vector<char> in(coming.all);
+    require(MPI_Ialltoallv(out.data(), going.size.data(), going.first.data(), MPI_BYTE, in.data(), coming.size.data(),
+                           coming.first.data(), MPI_BYTE, ownCommunicator(), &request),
+            doing);
+    companions_.wait(request, doing);
+    return coming.cut(in);
+  }
+
+private:
+  void sumOf(std::span<double> values) {
+    MPI_Request request = MPI_REQUEST_NULL;
+    const int count = static_cast<int>(values.size());
+    const void* const own = rank_ == 0 ? MPI_IN_PLACE : values.data();
+    require(MPI_Ireduce(own, values.data(), count, MPI_DOUBLE, MPI_SUM, 0, ownCommunicator(), &request), doing);
+    companions_.wait(request, doing);
+    require(MPI_Ibcast(values.data(), count, MPI_DOUBLE, 0, ownCommunicator(), &request), doing);
+    companions_.wait(request, doing);
+  }
+  std::vector<int> sizesOf(std::size_t own) const {
+    const int size = static_cast<int>(own);
+    std::vector<int> all(static_cast<std::size_t>(size_));
+    MPI_Request request = MPI_REQUEST_NULL;
+    require(MPI_Iallgather(&size, 1, MPI_INT, all.data(), 1, MPI_INT, ownCommunicator(), &request), doing);
+    companions_.wait(request, doing);
+    return all;
+  }
+
+  Companions companions_;
+  int rank_ = ranks::rank(), size_ = ranks::count();
+};
+
+}  // namespace
+
+void formTeam() {
+  start();
+  if (count() > 1) setTeam(std::make_unique<RankTeam>());
+}
+
+}  // namespace dovetail::ranks
