@@ -103,7 +103,7 @@ if(DOVETAIL_RANKS)
   find_package(Petsc QUIET)
   if(NOT Petsc_FOUND)
     message(FATAL_ERROR "DOVETAIL_RANKS=ON but PETSc with real numbers and its MPI were not found. "
-                        "Install the Debian packages libpetsc-real-dev and libopenmpi-dev, or set DOVETAIL_RANKS=OFF.")
+                        "Install the Debian packages libpetsc-real-dev, libscotch-dev and libopenmpi-dev, or set DOVETAIL_RANKS=OFF.")
   endif()
   dovetail_record_package(Petsc)
 endif()

@@ -1,6 +1,7 @@
 #include "dovetail/fem/model/model.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -24,15 +25,21 @@ std::vector<int> ownersOf(const linalg::MatrixPattern& own) {
   std::vector<char> meets(nodes);
   for (std::size_t n = 0; n < nodes; ++n) meets[n] = own.couples(n) ? 1 : 0;
   const std::vector<std::vector<char>> all = team().gather(std::move(meets));
-  std::vector<int> owners(nodes);
+  std::vector<int> owners(nodes, -1);
   std::vector<std::size_t> count(all.size(), 0);
+  const auto give = [&](std::size_t node, std::size_t rank) { owners[node] = static_cast<int>(rank), ++count[rank]; };
+  const auto has = [&](std::size_t node) { return [&all, node](std::size_t rank) { return all[rank][node] != 0; }; };
+  std::vector<std::size_t> ranks(all.size());
+  std::iota(ranks.begin(), ranks.end(), std::size_t{0});
+  for (std::size_t n = 0; n < nodes; ++n)
+    if (const auto those = std::ranges::count_if(ranks, has(n)); those < 2)
+      give(n, those == 0 ? 0 : static_cast<std::size_t>(std::ranges::find_if(ranks, has(n)) - ranks.begin()));
   for (std::size_t n = 0; n < nodes; ++n) {
+    if (owners[n] >= 0) continue;
     std::size_t best = all.size();
-    for (std::size_t rank = 0; rank < all.size(); ++rank)
-      if (all[rank][n] != 0 && (best == all.size() || count[rank] < count[best])) best = rank;
-    if (best == all.size()) best = 0;
-    ++count[best];
-    owners[n] = static_cast<int>(best);
+    for (const std::size_t rank : ranks)
+      if (has(n)(rank) && (best == all.size() || count[rank] < count[best])) best = rank;
+    give(n, best);
   }
   return owners;
 }
