@@ -84,7 +84,7 @@ bool runScene(int argc, char** argv) {
   const scene::Scene scene = file.read();
   const fs::path folder = out.empty() ? fs::path(file.name).stem().string() + "-out" : out;
   if (!replace) io::requireNoRun(folder);
-  return scene::run(scene, {.folder = folder, .profile = stepping.profile}, std::cout);
+  return scene::run(scene, {.folder = folder, .profile = stepping.profile, .onRanks = true}, std::cout);
 }
 
 bool checkScene(int argc, char** argv) {
@@ -109,7 +109,11 @@ bool resumeRun(int argc, char** argv) {
   stepping.addTo(options);
   if (!options.parse(argc, argv)) return true;
   stepping.begin();
-  return scene::resume({.folder = folder, .profile = stepping.profile, .until = timeIn(until), .threads = threads},
+  return scene::resume({.folder = folder,
+                        .profile = stepping.profile,
+                        .onRanks = true,
+                        .until = timeIn(until),
+                        .threads = threads},
                        std::cout);
 }
 

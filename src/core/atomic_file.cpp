@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/team.hpp"
 
 namespace dovetail {
 
@@ -107,6 +108,8 @@ bool isEmptyOfDeadProgram(const fs::directory_entry& entry, pid_t writer) {
 
 }  // namespace
 
+bool writesFiles() { return team().rank() == 0; }
+
 std::ifstream openFile(const fs::path& path, std::ios::openmode mode) {
   std::error_code error;
   std::ifstream file;
@@ -128,6 +131,7 @@ std::string headOf(const fs::path& path, std::size_t size) {
 }
 
 void requireFreeOrOurs(const fs::path& path, IsOurs isOurs) {
+  if (!writesFiles()) return;
   std::error_code error;
   const fs::file_status status = fs::symlink_status(path, error);
   if (status.type() == fs::file_type::not_found || isOurs(path)) return;
@@ -137,6 +141,7 @@ void requireFreeOrOurs(const fs::path& path, IsOurs isOurs) {
 }
 
 void requireWritable(const fs::path& folder) {
+  if (!writesFiles()) return;
   fs::path probe;
   const Descriptor file(openTemporary(folder / "probe", probe));
   const int failure = fill(file.number, {"dovetail"}, Survives::powerCuts);
@@ -146,6 +151,7 @@ void requireWritable(const fs::path& folder) {
 
 void replaceFile(const fs::path& path, std::initializer_list<std::string_view> pieces, IsOurs isOurs,
                  Survives survives) {
+  if (!writesFiles()) return;
   std::error_code unknown;
   if (const fs::file_status status = fs::symlink_status(path, unknown);
       fs::exists(status) && !fs::is_regular_file(status))
@@ -167,6 +173,7 @@ void replaceFile(const fs::path& path, std::initializer_list<std::string_view> p
 }
 
 void appendToFile(const fs::path& path, std::string_view bytes, IsOurs isOurs) {
+  if (!writesFiles()) return;
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC));
   if (file.number < 0) refuse(path, reason(errno));
   requireFreeOrOurs(path, isOurs);
@@ -178,6 +185,7 @@ void appendToFile(const fs::path& path, std::string_view bytes, IsOurs isOurs) {
 }
 
 void removeLeftovers(const fs::path& folder, IsOurs isOurs) {
+  if (!writesFiles()) return;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::optional<pid_t> writer = writerOf(entry.path().filename().string());

@@ -97,6 +97,7 @@ bool isOurs(const fs::path& path) { return kindOf(headOf(path, headSize)) != nul
 void requireFreeOrOurs(const fs::path& path) { dovetail::requireFreeOrOurs(path, isOurs); }
 
 void removeOurs(const fs::path& path) {
+  if (!writesFiles()) return;
   requireFreeOrOurs(path);
   std::error_code error;
   fs::remove(path, error);
@@ -104,6 +105,7 @@ void removeOurs(const fs::path& path) {
 }
 
 void writeFileAtomically(const fs::path& path, const std::string& text, Survives survives) {
+  if (!writesFiles()) return;
   const std::string_view *const kind = kindOf(std::string_view(text).substr(0, headSize)), *const before = kindOf(
                                                                                                headOf(path, headSize));
   if (before && before != kind)
@@ -113,6 +115,7 @@ void writeFileAtomically(const fs::path& path, const std::string& text, Survives
 
 fs::path prepareOutputFolder(const fs::path& folder, const std::vector<std::string>& fileNames) {
   if (folder.empty()) throw InputError("the output folder has no name", "output folder", "give one, for instance out");
+  if (!writesFiles()) return folder;
   std::error_code error;
   fs::create_directories(folder, error);
   std::error_code ignored;
@@ -137,6 +140,7 @@ fs::path prepareInnerFolder(const fs::path& folder, const std::vector<std::strin
 }
 
 void removeFrames(const fs::path& folder, const std::string& name) {
+  if (!writesFiles()) return;
   std::error_code error;
   if (!fs::is_directory(fs::symlink_status(folder, error))) return;
   std::vector<fs::path> frames;
@@ -170,6 +174,7 @@ void removeReport(const fs::path& folder) {
 }
 
 void requireNoRun(const fs::path& folder) {
+  if (!writesFiles()) return;
   const auto refuseRun = [&](const fs::path& file, const char* remedy) {
     throw InputError("there is a run in this folder, with " + file.filename().string(), folder.string(),
                      std::string(remedy) + ", or another folder by --out");
@@ -200,7 +205,7 @@ FolderOnTrial::~FolderOnTrial() {
 }
 
 FolderLock::FolderLock(const fs::path& folder)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    : descriptor_(writesFiles() ? ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1) {
   if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
   throw InputError("another run writes into this folder", folder.string(),

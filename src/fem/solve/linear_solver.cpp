@@ -49,6 +49,7 @@ struct LinearSolver::Impl {
     return {linalg::LinearMethod::multigrid, 25.0 * entries, 100.0 * 8.0 * entries, 0.0};
   }
   linalg::LinearForecast forecast(const linalg::BlockMatrix& K, bool symmetric) {
+    if (K.isPart()) return forecastMultigrid(K);  // of this rank
     const bool may = nodes && linalg::Multigrid::available();
     if (options.method == linalg::LinearMethod::multigrid && nodes) return forecastMultigrid(K);
     const bool automatic = options.method == linalg::LinearMethod::automatic;
@@ -205,6 +206,13 @@ LinearSolver::Factored LinearSolver::read(ByteReader& archive, const linalg::Blo
   if (state.kind < 0 || state.kind > static_cast<int>(Kind::multigrid))
     throw InputError("a kind of factors has the number " + std::to_string(state.kind), "LinearSolver",
                      "load it into the run that saved it");
+  if (K.isPart() && state.kind != static_cast<int>(Kind::none)) {  // what one process has factorised is made anew
+    bool symmetric = false;
+    std::vector<double> values;
+    archive(symmetric, values);
+    state.kind = static_cast<int>(Kind::none);
+    return state;
+  }
   if (rows && !linalg::Multigrid::available())
     throw InputError("the state was saved by a run with multigrid, which this build has not", "LinearSolver",
                      "load it by a build with -D DOVETAIL_RANKS=ON");

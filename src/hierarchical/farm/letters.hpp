@@ -23,7 +23,8 @@ enum class Verb : std::uint8_t {
   evaluate,  ///< a question about all its points; answers come back
   commit,
   revert,
-  close
+  close,
+  join  ///< of no field: the rank becomes one of a team
 };
 
 /// All that points of a field are made from.

@@ -9,6 +9,8 @@ namespace dovetail::hierarchical {
 
 Mail* mailOfFarm() { return nullptr; }
 
+void formTeam() {}
+
 bool serveFarm() {
   if (const int ranks = ranksLaunched(); ranks > 1)
     throw InputError("this program was built without ranks, and " + std::to_string(ranks) + " of it would do the same",

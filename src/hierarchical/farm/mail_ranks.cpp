@@ -1,4 +1,5 @@
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -11,7 +12,9 @@
 #include "dovetail/hierarchical/farm.hpp"
 #include "dovetail/ranks/post.hpp"
 #include "dovetail/ranks/session.hpp"
+#include "dovetail/ranks/team_of_ranks.hpp"
 #include "launcher.hpp"
+#include "letters.hpp"
 #include "mail.hpp"
 #include "worker.hpp"
 
@@ -44,8 +47,17 @@ public:
   void giveUp() override { ended_ = true; }
   bool isOfThisThread() const { return std::this_thread::get_id() == thread_; }
 
+  /// The others leave their letters for a team.
+  void callTogether() {
+    for (int rank = 1; rank < ranks(); ++rank) send(rank, {static_cast<char>(Verb::join)});
+    settle();
+    joined_ = ended_ = true;
+  }
+  bool joined() const { return joined_; }
+
   /// The others end too. Where that cannot be told to them, the program does not wait for them.
   void sayFarewell() {
+    if (joined_) return;
     try {
       for (int rank = 1; rank < ranks(); ++rank) send(rank, {});
       settle();
@@ -77,7 +89,7 @@ private:
   ranks::Post post_;
   int ranks_ = ranks::count();
   std::thread::id thread_ = std::this_thread::get_id();
-  bool ended_ = false;
+  bool ended_ = false, joined_ = false;
 };
 
 /// Lives as long as the program: fields may outlive what ends the letters.
@@ -87,12 +99,15 @@ struct Farewell {
   ~Farewell() { theMail->sayFarewell(); }
 };
 
-void answerLetters() {
+enum class After { end, team };
+
+After answerLetters() {
   ranks::Post post;
   FarmWorker worker;
   for (;;) {
     ranks::Post::Arrived letter = post.receive();
-    if (letter.bytes.empty()) return;
+    if (letter.bytes.empty()) return After::end;
+    if (static_cast<Verb>(letter.bytes.front()) == Verb::join) return After::team;
     if (std::optional<std::vector<char>> reply = worker.answer(std::move(letter.bytes))) {
       post.send(letter.from, std::move(*reply));
       post.settle();
@@ -101,10 +116,10 @@ void answerLetters() {
 }
 
 /// When to end is rank 0's to decide: it may want a step to its end, and a checkpoint.
-void serve() {
+After serve() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
   try {
-    answerLetters();
+    return answerLetters();
   } catch (const LostError&) {  // rank 0 tells
     std::_Exit(1);
   } catch (const std::exception& error) {
@@ -113,15 +128,36 @@ void serve() {
   }
 }
 
+/// What all ranks have to say, the first one says.
+void fallSilent() {
+  std::cout.setstate(std::ios::badbit);
+  std::cerr.setstate(std::ios::badbit);
+  std::clog.setstate(std::ios::badbit);
+  if (std::freopen("/dev/null", "w", stdout) == nullptr) std::fclose(stdout);
+}
+
 }  // namespace
 
-Mail* mailOfFarm() { return theMail != nullptr && theMail->isOfThisThread() ? theMail : nullptr; }
+Mail* mailOfFarm() {
+  return theMail != nullptr && theMail->isOfThisThread() && !theMail->joined() ? theMail : nullptr;
+}
+
+void formTeam() {
+  if (mailOfFarm() == nullptr) return;
+  theMail->callTogether();
+  ranks::formTeam();
+}
 
 bool serveFarm() {
   if (theMail != nullptr || ranksLaunched() == 1) return false;
   ranks::start();
   if (ranks::count() == 1) return false;
-  if (ranks::rank() > 0) return serve(), true;
+  if (ranks::rank() > 0) {
+    if (serve() == After::end) return true;
+    ranks::formTeam();
+    fallSilent();
+    return false;
+  }
   theMail = new RankMail;
   static const Farewell farewell;  // made after the session, which thus ends later
   return false;

@@ -198,11 +198,12 @@ void requireSlowDamping(const Built& built, const Scene& scene) {
 
 }  // namespace
 
-Built build(const Scene& scene) {
+Built build(const Scene& scene, bool onRanks) {
   requireStandstill(scene);
   requireStatics(scene);
   if (scene.steps.threads > 0) setThreads(scene.steps.threads);
   Built built;
+  built.onRanks = onRanks;
   built.run = std::make_unique<coupling::CoupledRun>();
   dem::Model& grains = built.run->grains;
   setLaws(grains, scene);

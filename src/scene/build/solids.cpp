@@ -6,11 +6,13 @@
 
 #include "changes.hpp"
 #include "dovetail/arlequin/overlap.hpp"
+#include "dovetail/core/team.hpp"
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/materials.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
 #include "dovetail/fem/terms/gradient_energy.hpp"
 #include "dovetail/fem/terms/loads.hpp"
+#include "dovetail/hierarchical/farm.hpp"
 #include "dovetail/io/names.hpp"
 #include "dovetail/linalg/multigrid.hpp"
 #include "from_state.hpp"
@@ -89,12 +91,37 @@ std::shared_ptr<fem::Solid> makeElements(const fem::SolidMesh& mesh, const Solid
   return fem::makeSolid(mesh, makeMaterial(material), options);
 }
 
+/// Unknowns from which ranks share a solid unasked.
+constexpr std::size_t worthSharing = 200'000;
+
+/// Whether ranks share the elements: of a solid that multigrid is asked to solve, or is large.
+bool isShared(const Solid& solid, const fem::SolidMesh& mesh, const Built& built, const Scene& scene) {
+  const bool several = built.onRanks && (hierarchical::ranksOfFarm() > 1 || team().size() > 1);
+  if (!several || (!solid.implicitSteps && !hasStatics(scene))) return false;
+  const bool anyCells = std::ranges::any_of(scene.solids, [](const Solid& one) {
+    return std::ranges::any_of(materialsOf(one), [](const auto* material) { return hasCells(*material); });
+  });
+  const bool consistent = solid.implicitSteps && solid.massFraction.value_or(1.0) > 0.0;
+  const auto method = static_cast<linalg::LinearMethod>(solid.linearSolver);
+  if (method == linalg::LinearMethod::automatic)
+    return !anyCells && !consistent && solid.ties.empty() && 3 * mesh.X.size() >= worthSharing;
+  if (method != linalg::LinearMethod::multigrid) return false;
+  const auto refuse = [](const char* what, const char* remedy) { throw InputError(what, "linear_solver", remedy); };
+  if (anyCells) refuse("ranks share cells of grains, or elements", "leave the multigrid out, or start one process");
+  if (consistent)
+    refuse("ranks share elements with lumped masses only", "write \"consistent_mass\": 0, or start one process");
+  if (!solid.ties.empty()) refuse("ranks share no elements of meshes that are tied", "start one process");
+  return true;
+}
+
 void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap,
                  const Built& built, const Scene& scene) {
   const Vec3 gravity = solid.gravity ? scene.gravity : Vec3{};
   const bool loadSteps = takesLoadStepsAlone(scene);
   fem::SolidOptions options{.formulation = formulationOf(solid.formulation), .name = "elements"};
   if (overlap) options.fraction = arlequin::solidWeights(overlapWeights(*overlap, mesh));
+  options.onRanks = isShared(solid, mesh, built, scene);
+  if (options.onRanks) hierarchical::formTeam();
   const std::vector<std::size_t> material = materialByElement(solid, mesh);
   const std::vector<const SolidMaterial*> materials = materialsOf(solid);
   int first = 0;

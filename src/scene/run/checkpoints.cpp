@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "dovetail/core/archive.hpp"
+#include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -61,7 +62,7 @@ Checkpoint lastCheckpoint(const fs::path& folder, std::ostream& log, Damaged dam
     }();
     log << "WARNING: " << damage.what() << "\nThe previous state is used instead: " << before.filename().string()
         << ", t = " << formatNumber(checkpoint.time) << " s" << std::endl;
-    if (damaged == Damaged::isSetAside) fs::rename(last, folder / "checkpoint.damaged.state", error);
+    if (damaged == Damaged::isSetAside && writesFiles()) fs::rename(last, folder / "checkpoint.damaged.state", error);
     return checkpoint;
   }
 }
@@ -74,6 +75,7 @@ void writeCheckpoint(const fs::path& folder, const std::string& identity, const 
   archive(identity, meshes, run.time());
   archiveProgress(archive, progress);
   archive(run.save());
+  if (!writesFiles()) return;
   std::error_code none;  // the first one has none before it
   const bool isFree = !fs::exists(fs::symlink_status(stateBefore(folder), none)) || io::isOurs(stateBefore(folder));
   if (isFree && io::isOurs(lastState(folder))) fs::rename(lastState(folder), stateBefore(folder), none);

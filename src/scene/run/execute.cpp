@@ -13,6 +13,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/core/team.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/scene/read.hpp"
@@ -36,6 +37,9 @@ constexpr std::int64_t lookEvery = 20;             // macro steps between two lo
 constexpr std::int64_t arcsPerLoadStep = 200;      // of a path of equilibria, at most
 constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
 
+/// Of a team all ranks, whichever of them a signal has asked.
+bool stopsNow() { return team().largest(io::interruption()) != 0.0; }
+
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 /// A run under way with its files.
@@ -48,7 +52,7 @@ public:
         identity_(identityOf(scene_)),
         trial_(settings.folder),
         lock_(io::prepareOutputFolder(settings.folder, fileNames(scene_, goesOn)), trial_),
-        built_(build(scene_)),
+        built_(build(scene_, settings.onRanks)),
         provenance_(io::provenance({{"scene", hashOf(identity_)}})) {
     built_.run->profile = Profile(settings.profile);
     built_.run->grains.profile = settings.profile ? &built_.run->profile : nullptr;
@@ -170,7 +174,7 @@ private:
       warn();
       if (ended) break;
       if (due(plan_.checkpoints)) checkpoint();
-      if (io::interruption() != 0) return false;
+      if (stopsNow()) return false;
     }
     return true;
   }
@@ -211,13 +215,13 @@ private:
                      "\" is not stable: it buckles as soon as anything disturbs it; lower its loads, or run instead",
                  true);
       if (time == 0.0 && progress_.macroStep < statics.loadSteps) {
-        if (io::interruption() != 0) return false;
+        if (stopsNow()) return false;
         continue;
       }
       sample(0);
       frame(0);
       if (plan_.checkpoints > 0 && progress_.macroStep < statics.loadSteps) checkpoint();
-      if (io::interruption() != 0 && progress_.macroStep < statics.loadSteps) return false;
+      if (stopsNow() && progress_.macroStep < statics.loadSteps) return false;
     }
     return true;
   }
@@ -241,7 +245,7 @@ private:
       frame(0, Frames::SameInstant::kept);
       if (hasCome()) break;
       if (plan_.checkpoints > 0 && progress_.macroStep % lookEvery == 0) checkpoint();
-      if (io::interruption() != 0) return false;
+      if (stopsNow()) return false;
     }
     return true;
   }
@@ -278,7 +282,7 @@ private:
       sample(plan_.series);
       frame(plan_.frames);
       if (due(plan_.checkpoints) && next < macroSteps) checkpoint();
-      if (io::interruption() != 0) return false;
+      if (stopsNow()) return false;
     }
     return true;
   }

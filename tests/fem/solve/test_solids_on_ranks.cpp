@@ -182,16 +182,57 @@ TEST(SolidsOnRanks, OtherTermsAreThereOnce) {
   EXPECT_LT(apart(pair.here.nodes.u, pair.shared.nodes.u), 1e-8);
 }
 
-TEST(SolidsOnRanks, StatesComeBack) {
-  Pair pair(metal()), other(metal());
-  solve(pair.shared, byMultigrid);
+TEST(SolidsOnRanks, StatesAreThoseOfOneProcess) {
+  struct Case {
+    std::shared_ptr<const PointMaterial> material;
+    Formulation formulation;
+  };
+  for (const Case& one : {Case{metal(), Formulation::standard}, Case{metal(), Formulation::enhanced}}) {
+    SCOPED_TRACE(name(one.formulation));
+    Pair pair(one.material, 5, ElementShape::hex8, one.formulation), other(one.material, 5, ElementShape::hex8, one.formulation);
+    pair.bend();
+    for (Model* model : {&pair.here, &pair.shared}) {
+      std::vector<Vec3> f(model->nodes.X.size());
+      model->terms[0]->addForces(model->nodes, {}, f);
+      model->terms[0]->commit(model->nodes, {});
+    }
+    ByteWriter here, shared;
+    pair.here.terms[0]->save(here);
+    pair.shared.terms[0]->save(shared);
+    EXPECT_EQ(here.bytes().size(), shared.bytes().size());
+    if (one.formulation == Formulation::standard) {
+      EXPECT_TRUE(here.bytes() == shared.bytes());
+    }
+    ByteReader reader(here.bytes()), back(shared.bytes());
+    other.shared.terms[0]->load(reader);
+    other.here.terms[0]->load(back);
+    EXPECT_TRUE(reader.atEnd() && back.atEnd());
+    const auto historyOf = [&](Model& model) { return solidOf(model).sample(pair.here.nodes, {}).history; };
+    EXPECT_EQ(historyOf(pair.here), historyOf(other.shared));
+    EXPECT_EQ(historyOf(pair.shared), historyOf(other.here));
+  }
+}
+
+TEST(SolidsOnRanks, ImplicitStepsGoOnOnOtherRanks) {
+  Pair pair(rubber());
+  pair.addMasses();
+  const ImplicitOptions options{.massFraction = 0.0, .linear = {.method = byMultigrid}};
+  Model whole = pressed(5, rubber());
+  addMass(whole);
+  ImplicitIntegrator all(whole, 5e-3, options), one(pair.here, 5e-3, options), many(pair.shared, 5e-3, options);
+  all.run(6);
+  one.run(3);
   ByteWriter state;
-  pair.shared.terms[0]->save(state);
+  one.save(state);
   ByteReader reader(state.bytes());
-  other.shared.terms[0]->load(reader);
-  EXPECT_TRUE(reader.atEnd());
-  EXPECT_EQ(solidOf(pair.shared).sample(pair.shared.nodes, {}).history,
-            solidOf(other.shared).sample(other.shared.nodes, {}).history);
+  many.load(reader);
+  many.run(3);
+  EXPECT_LT(apart(whole.nodes.u, pair.shared.nodes.u), 1e-7);
+  ByteWriter back;
+  many.save(back);
+  ByteReader again(back.bytes());
+  one.load(again);
+  EXPECT_EQ(pair.here.nodes.u, pair.shared.nodes.u);
 }
 
 /// What is thrown, on all ranks alike.

@@ -41,6 +41,12 @@ struct SharedNodes {
   std::size_t memory() const;
 };
 
+/// Of numbers in a state: [groups batch + g][lane][record], in a vector of their own. Lanes that repeat an element
+/// repeat its numbers.
+struct StateShape {
+  std::size_t groups, record;
+};
+
 class SolidBase : public Solid {
 public:
   /// @param lazy  leave geometry_ empty until needGeometry()
@@ -68,6 +74,8 @@ public:
   void addConsistentMass(linalg::NodeMatrix& M) const override;
   void save(ByteWriter& archive) const override { points_->save(archive); }
   void load(ByteReader& archive) override;
+  /// The vectors that save() writes for a material.
+  virtual std::vector<StateShape> stateShapes() const { return {{pointCount(), points_->law()->historySize()}}; }
   void requireValid(const Nodes& nodes, const std::string& when, Scrutiny scrutiny) override;
 
   std::size_t size() const override { return cells_.size(); }

@@ -76,6 +76,11 @@ public:
     }
     archive(values);
   }
+  std::vector<StateShape> stateShapes() const override {
+    std::vector<StateShape> shapes = SolidBase::stateShapes();
+    shapes.push_back({M + M * M, 1});
+    return shapes;
+  }
   void load(ByteReader& archive) override {
     SolidBase::load(archive);
     const std::vector<double> values = readNumbers(archive, committed_.size() * (M + M * M) * laneCount, options_.name);

@@ -10,10 +10,41 @@
 #include "dovetail/core/team.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/linalg/partition.hpp"
+#include "solid_base.hpp"
+#include "solid_points.hpp"
 
 namespace dovetail::fem::detail {
 
 namespace {
+
+/// Of a state of so many elements.
+std::size_t numbersOf(const StateShape& shape, std::size_t elements) {
+  return (elements + laneCount - 1) / laneCount * laneCount * shape.groups * shape.record;
+}
+/// Where element e has its numbers of a group.
+std::size_t placeOf(const StateShape& shape, std::size_t e, std::size_t group) {
+  return ((e / laneCount * shape.groups + group) * laneCount + e % laneCount) * shape.record;
+}
+std::vector<double> byElements(std::span<const double> batches, const StateShape& shape, std::size_t elements) {
+  std::vector<double> values;
+  for (std::size_t e = 0; e < elements; ++e)
+    for (std::size_t g = 0; g < shape.groups; ++g) {
+      const std::span<const double> record = batches.subspan(placeOf(shape, e, g), shape.record);
+      values.insert(values.end(), record.begin(), record.end());
+    }
+  return values;
+}
+std::vector<double> inBatches(std::span<const double> values, const StateShape& shape, std::size_t elements) {
+  std::vector<double> batches(numbersOf(shape, elements));
+  const std::size_t lanes = (elements + laneCount - 1) / laneCount * laneCount;
+  for (std::size_t e = 0; e < lanes; ++e)
+    for (std::size_t g = 0; g < shape.groups; ++g) {
+      const std::size_t from = (std::min(e, elements - 1) * shape.groups + g) * shape.record;
+      std::ranges::copy(values.subspan(from, shape.record),
+                        batches.begin() + static_cast<std::ptrdiff_t>(placeOf(shape, e, g)));
+    }
+  return batches;
+}
 
 std::span<double> numbersOf(std::span<Vec3> field) {
   return {field.empty() ? nullptr : &field[0].x, 3 * field.size()};
@@ -21,7 +52,7 @@ std::span<double> numbersOf(std::span<Vec3> field) {
 
 class SolidOnRanks final : public Solid {
 public:
-  SolidOnRanks(std::shared_ptr<Solid> share, const std::vector<std::vector<int>>& numbers) : share_(std::move(share)) {
+  SolidOnRanks(std::shared_ptr<SolidBase> share, const std::vector<std::vector<int>>& numbers) : share_(std::move(share)) {
     std::vector<int> all;
     for (const std::vector<int>& rank : numbers) all.insert(all.end(), rank.begin(), rank.end());
     order_.resize(all.size());
@@ -113,26 +144,33 @@ public:
                      "take a lumped mass, or one process");
   }
 
+  /// As one process writes it, and reads it.
   void save(ByteWriter& archive) const override {
     ByteWriter own;
     share_->save(own);
-    archive(team().size());
-    for (const std::vector<char>& state : team().gather(own.take())) archive(state);
+    ByteReader reader(own.take());
+    for (const StateShape& shape : share_->stateShapes()) {
+      std::vector<double> values;
+      reader(values);
+      archive(inBatches(inOrder<double>(byElements(values, shape, share_->size())), shape, size()));
+    }
   }
   void load(ByteReader& archive) override {
-    int ranks = 0;
-    archive(ranks);
-    if (ranks != team().size())
-      throw InputError("the state of the elements was saved by " + std::to_string(ranks) + " ranks, not by " +
-                           std::to_string(team().size()),
-                       "elements \"" + name() + "\"", "load it on as many");
-    std::vector<char> state, own;
-    for (int rank = 0; rank < team().size(); ++rank) {
-      archive(state);
-      if (rank == team().rank()) own = std::move(state);
+    ByteWriter own;
+    for (const StateShape& shape : share_->stateShapes()) {
+      const std::size_t each = shape.groups * shape.record;
+      const std::vector<double> values = readNumbers(archive, numbersOf(shape, size()), name());
+      const std::vector<double> all = byElements(values, shape, size());
+      std::vector<double> mine;
+      for (std::size_t e = 0; e < share_->size(); ++e) {
+        const auto place = std::ranges::lower_bound(numbers_, share_->number(e)) - numbers_.begin();
+        const auto first = all.begin() + place * static_cast<std::ptrdiff_t>(each);
+        mine.insert(mine.end(), first, first + static_cast<std::ptrdiff_t>(each));
+      }
+      own(inBatches(mine, shape, share_->size()));
     }
     together([&] {
-      ByteReader reader(std::move(own));
+      ByteReader reader(own.take());
       share_->load(reader);
     });
   }
@@ -140,7 +178,7 @@ public:
   std::vector<double> elementEnergies(const Nodes& nodes, const Instant& now) override {
     std::vector<double> own;
     together([&] { own = share_->elementEnergies(nodes, now); });
-    return inOrder(std::span<const double>(own));
+    return inOrder<double>(own);
   }
   Sample sample(const Nodes& nodes, const Instant& now) override {
     Sample own;
@@ -192,7 +230,7 @@ private:
     return sorted;
   }
 
-  std::shared_ptr<Solid> share_;
+  std::shared_ptr<SolidBase> share_;
   std::vector<int> numbers_;        // of all ranks, ascending
   std::vector<std::size_t> order_;  // of those, rank after rank
 };
@@ -220,8 +258,8 @@ std::vector<std::vector<int>> keepShare(SolidCells& cells) {
   return numbers;
 }
 
-std::shared_ptr<Solid> solidOnRanks(std::shared_ptr<Solid> share, const std::vector<std::vector<int>>& numbers) {
-  return std::make_shared<SolidOnRanks>(std::move(share), numbers);
+std::shared_ptr<Solid> solidOnRanks(const std::shared_ptr<Solid>& share, const std::vector<std::vector<int>>& numbers) {
+  return std::make_shared<SolidOnRanks>(std::dynamic_pointer_cast<SolidBase>(share), numbers);
 }
 
 }  // namespace dovetail::fem::detail

@@ -13,6 +13,6 @@ namespace dovetail::fem::detail {
 std::vector<std::vector<int>> keepShare(SolidCells& cells);
 
 /// @param share  with the elements of this rank @param numbers  what keepShare() has returned
-std::shared_ptr<Solid> solidOnRanks(std::shared_ptr<Solid> share, const std::vector<std::vector<int>>& numbers);
+std::shared_ptr<Solid> solidOnRanks(const std::shared_ptr<Solid>& share, const std::vector<std::vector<int>>& numbers);
 
 }  // namespace dovetail::fem::detail

@@ -99,16 +99,20 @@ VtuSeries::VtuSeries(const std::filesystem::path& folder, std::string name, KeyV
   requirePlainName(name_, "VTU series");
   prepareOutputFolder(folder_, {name_ + ".pvd"});
   prepareInnerFolder(folder_ / name_);
-  const std::string ending = framePath(0).extension().string();
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / name_)) {
-    const std::string found = entry.path().filename().string();
-    if (found.starts_with(name_ + "_") && entry.path().extension() == ending) requireFreeOrOurs(entry.path());
-  }
+  if (writesFiles()) requireFreeFrames();
   for (std::size_t frame = 0; frame < times.size(); ++frame)
     if (!isOurs(framePath(frame)))
       throw InputError("a frame of the run that is to go on is missing", framePath(frame).string(),
                        "restore it, or start a new run");
   times_ = std::move(times);
+}
+
+void VtuSeries::requireFreeFrames() const {
+  const std::string ending = framePath(0).extension().string();
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / name_)) {
+    const std::string found = entry.path().filename().string();
+    if (found.starts_with(name_ + "_") && entry.path().extension() == ending) requireFreeOrOurs(entry.path());
+  }
 }
 
 std::string VtuSeries::fileName(std::size_t frame) const {

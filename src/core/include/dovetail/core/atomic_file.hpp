@@ -12,6 +12,10 @@ namespace dovetail {
 /// Whether something at a path was written by a program of ours, which may then replace or remove it.
 using IsOurs = bool (*)(const std::filesystem::path& path);
 
+/// Whether this process does: of a team() the first rank, for all of them. Nothing below writes, removes or looks for
+/// what is in the way elsewhere.
+bool writesFiles();
+
 /// A regular file, opened to be read; a stream that has failed for anything else, whose opening or reading may never
 /// end (pipes, devices) or makes no sense (folders).
 std::ifstream openFile(const std::filesystem::path& path, std::ios::openmode mode = std::ios::in);

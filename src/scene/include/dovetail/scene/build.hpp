@@ -53,6 +53,7 @@ struct PointFaces {
 
 /// A run, and data on its parts.
 struct Built {
+  bool onRanks = false;  ///< whether ranks may share elements
   std::unique_ptr<coupling::CoupledRun> run;
   std::vector<fem::SolidMesh> meshes;                  ///< of the solids, in their order
   std::map<std::string, PointFaces> faces;             ///< by solids of points whose faces something acts on
@@ -75,8 +76,10 @@ using VolumeMesher =
 void useVolumeMesher(VolumeMesher mesher);
 
 /// Makes all parts; no step is made, and the run has not been started.
+/// @param onRanks  under mpirun, solids that multigrid solves are shared by the ranks, which become a team for it
+///                 (hierarchical::formTeam): for programs that do nothing but run the scene
 /// @throws InputError with the place in the scene file of a part that is impossible, or impossible at its position
-Built build(const Scene& scene);
+Built build(const Scene& scene, bool onRanks = false);
 
 /// Starts the run with the scene's step. "auto": the fraction `safety` of the smallest of the critical step at the
 /// start, that of each explicit solid, and the exact one of two of the smallest grains of the scene at an overlap of a

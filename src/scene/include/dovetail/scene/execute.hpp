@@ -15,6 +15,7 @@ struct RunOptions {
   std::filesystem::path folder;  ///< for all that is written
   bool progress = true;          ///< shown on a terminal; elsewhere a line per tenth of a stage
   bool profile = false;          ///< time per part of a step in the summary
+  bool onRanks = false;          ///< as of build()
   // Of resume():
   std::optional<double> until = {};  ///< s since the start: the new end of the last stage
   std::optional<int> threads = {};   ///< in place of the scene's

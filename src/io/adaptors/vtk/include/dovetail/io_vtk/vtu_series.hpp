@@ -136,6 +136,7 @@ public:
   std::size_t frames() const { return times_.size(); }
   std::filesystem::path pvdPath() const { return folder_ / (name_ + ".pvd"); }
   std::filesystem::path framePath(std::size_t frame) const;
+  void requireFreeFrames() const;
 
 private:
   void requireLater(double time) const;
