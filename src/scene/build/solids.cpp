@@ -147,6 +147,20 @@ void addElements(fem::Model& model, fem::SolidMesh& mesh, const Solid& solid, co
                      "leave the largest region out, and give the solid its material");
 }
 
+/// How many elements each rank has; empty unless ranks share them.
+std::string onRanks(const fem::Model& model) {
+  std::vector<std::size_t> elements;
+  for (const auto& term : model.terms)
+    if (const auto* const solid = dynamic_cast<const fem::Solid*>(term.get()); solid && solid->isShared()) {
+      const std::vector<std::size_t> more = solid->sizesOnRanks();
+      elements.resize(more.size(), 0);
+      for (std::size_t rank = 0; rank < more.size(); ++rank) elements[rank] += more[rank];
+    }
+  std::string text;
+  for (const std::size_t count : elements) text += (text.empty() ? "" : ", ") + std::to_string(count);
+  return text;
+}
+
 /// The energy of the gradient of F in all elements.
 void addGradient(fem::Model& model, const fem::SolidMesh& mesh, const Solid& solid, const Overlap* overlap) {
   const bool allPoints = solid.formulation != "reduced" && std::ranges::any_of(mesh.groups, [](const auto& group) {
@@ -223,6 +237,9 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   fem::SolidMesh& mesh = built.meshes.back();
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap, built, scene);
+  if (const std::string elements = onRanks(*model); !elements.empty())
+    built.notes.push_back("Solid \"" + solid.name + "\" is on " + std::to_string(team().size()) + " ranks: " + elements +
+                          " elements.");
   if (solid.gradient) addGradient(*model, mesh, solid, overlap);
   if (solid.gravity && changesGravity(scene))
     model->add(fem::gravity([now = built.changing.gravity](double) { return *now; }));

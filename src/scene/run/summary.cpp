@@ -38,6 +38,10 @@ Json solidsOf(const Built& built) {
       list[s]["most_copies"] = cells.mostCopies;
     }
   for (std::size_t s = 0; s < list.size(); ++s)
+    for (const auto& term : built.run->solid(s).model->terms)
+      if (const auto* const solid = dynamic_cast<const fem::Solid*>(term.get()); solid && solid->isShared())
+        list[s]["ranks"].push_back({{"elements", solid->sizesOnRanks()}});
+  for (std::size_t s = 0; s < list.size(); ++s)
     for (const hierarchical::FarmReport* const farm : farmsOf(*built.run->solid(s).model))
       list[s]["ranks"].push_back({{"cells", farm->points},
                                   {"busy_s", farm->busy},

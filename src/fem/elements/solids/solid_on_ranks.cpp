@@ -54,7 +54,10 @@ class SolidOnRanks final : public Solid {
 public:
   SolidOnRanks(std::shared_ptr<SolidBase> share, const std::vector<std::vector<int>>& numbers) : share_(std::move(share)) {
     std::vector<int> all;
-    for (const std::vector<int>& rank : numbers) all.insert(all.end(), rank.begin(), rank.end());
+    for (const std::vector<int>& rank : numbers) {
+      all.insert(all.end(), rank.begin(), rank.end());
+      sizes_.push_back(rank.size());
+    }
     order_.resize(all.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::ranges::sort(order_, {}, [&](std::size_t k) { return all[k]; });
@@ -69,6 +72,7 @@ public:
   bool isSymmetric() const override { return share_->isSymmetric(); }
   bool hasEnergy() const override { return share_->hasEnergy(); }
   std::size_t size() const override { return numbers_.size(); }
+  std::vector<std::size_t> sizesOnRanks() const override { return sizes_; }
   /// Of this rank.
   std::size_t memory() const override { return share_->memory(); }
   const PointMaterial* material() const override { return share_->material(); }
@@ -231,6 +235,7 @@ private:
   }
 
   std::shared_ptr<SolidBase> share_;
+  std::vector<std::size_t> sizes_;  // of each rank
   std::vector<int> numbers_;        // of all ranks, ascending
   std::vector<std::size_t> order_;  // of those, rank after rank
 };

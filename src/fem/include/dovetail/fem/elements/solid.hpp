@@ -61,6 +61,8 @@ public:
   /// Nothing: stableStep() says what an explicit step can be.
   void addStiffness(const Nodes&, const Instant&, std::span<double>) final {}
   virtual std::size_t size() const = 0;
+  /// Elements of each rank that shares them.
+  virtual std::vector<std::size_t> sizesOnRanks() const { return {size()}; }
   /// Bytes of the caches and of history.
   virtual std::size_t memory() const = 0;
   /// Null for a field of points.
