@@ -109,12 +109,9 @@ bool resumeRun(int argc, char** argv) {
   stepping.addTo(options);
   if (!options.parse(argc, argv)) return true;
   stepping.begin();
-  return scene::resume({.folder = folder,
-                        .profile = stepping.profile,
-                        .onRanks = true,
-                        .until = timeIn(until),
-                        .threads = threads},
-                       std::cout);
+  return scene::resume(
+      {.folder = folder, .profile = stepping.profile, .onRanks = true, .until = timeIn(until), .threads = threads},
+      std::cout);
 }
 
 bool inspectFile(int argc, char** argv) {

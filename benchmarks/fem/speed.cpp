@@ -167,14 +167,16 @@ void timeBeams() {
 /// A body of a cube of E 1 MPa, by the name of its law.
 std::shared_ptr<Solid> cubeOf(const SolidMesh& mesh, const std::string& law, bool onRanks) {
   if (law == "nearly-incompressible")
-    return makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.499, 1000.0)), {.formulation = Formulation::meanDilatation, .onRanks = onRanks});
+    return makeSolid(mesh, pointMaterial(neoHookean(1e6, 0.499, 1000.0)),
+                     {.formulation = Formulation::meanDilatation, .onRanks = onRanks});
   if (law == "drucker-prager")
-    return makeSolid(mesh, pointMaterial(DruckerPrager{.youngsModulus = 1e6,
-                                                       .poissonRatio = 0.3,
-                                                       .density = 1000.0,
-                                                       .cohesion = 5e3,
-                                                       .frictionAngle = 0.5,
-                                                       .dilatancyAngle = 0.1}),
+    return makeSolid(mesh,
+                     pointMaterial(DruckerPrager{.youngsModulus = 1e6,
+                                                 .poissonRatio = 0.3,
+                                                 .density = 1000.0,
+                                                 .cohesion = 5e3,
+                                                 .frictionAngle = 0.5,
+                                                 .dilatancyAngle = 0.1}),
                      {.onRanks = onRanks});
   return makeSolid(mesh, pointMaterial(Material(StVenantKirchhoff{1e6, 0.3, 1000.0})), {.onRanks = onRanks});
 }
@@ -202,16 +204,18 @@ void timeCube(int n, double fraction, linalg::LinearMethod method, const std::st
   for (const int node : nodeSet(mesh, "z+")) force += f[static_cast<std::size_t>(node)].z;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const double ownSeconds = static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
+  const double ownSeconds =
+      static_cast<double>(usage.ru_utime.tv_sec) + 1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
   const double memory = static_cast<double>(usage.ru_maxrss) / 1024.0;
   const double busiest = team().largest(ownSeconds), all = team().sum(ownSeconds), most = team().largest(memory);
   if (team().rank() > 0) return;
   std::printf(
-      "cube %d %s ranks %d threads %d %s: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, %lld "
+      "cube %d %s ranks %d threads %d %s: %.2f s (assembly %.2f, solver %.2f), %lld iterations, %lld factorisations, "
+      "%lld "
       "linear "
       "iterations, force %.9e N, %.0f MB at the most, user CPU %.2f s in all, %.2f s of the busiest\n",
-      n, law.c_str(), team().size(), threads(), report.solver.c_str(), seconds, report.assemblySeconds, report.solverSeconds,
-      static_cast<long long>(report.iterations), static_cast<long long>(report.factorisations),
+      n, law.c_str(), team().size(), threads(), report.solver.c_str(), seconds, report.assemblySeconds,
+      report.solverSeconds, static_cast<long long>(report.iterations), static_cast<long long>(report.factorisations),
       static_cast<long long>(report.linearIterations), force, most, all, busiest);
 }
 

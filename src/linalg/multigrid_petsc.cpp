@@ -35,7 +35,7 @@ struct Multigrid::Impl {
   std::int64_t iterations = 0, setUps = 0;
   PetscInt last = 0;                     // iterations of the last solve
   double costAtFirst = 0.0, cost = 0.0;  // iterations a decade, of the first solve with these levels and of the last
-  MPI_Comm comm = PETSC_COMM_SELF;      // that have rows
+  MPI_Comm comm = PETSC_COMM_SELF;       // that have rows
   std::vector<double> x;
   Owned<Mat, MatDestroy> matrix;
   Owned<KSP, KSPDestroy> solver;
@@ -67,17 +67,17 @@ Multigrid::Multigrid(Multigrid&&) noexcept = default;
 void Multigrid::Impl::wrap(RowMatrix& A) {
   comm = PETSC_COMM_SELF;
   ranks::require(MatCreateSeqAIJWithArrays(comm, A.size, A.size, A.offsets.data(), A.column.data(), A.value.data(),
-                                    matrix.fresh()),
-          "matrix of a solid");
+                                           matrix.fresh()),
+                 "matrix of a solid");
 }
 
 void Multigrid::Impl::wrap(SharedRows& A) {
   comm = PETSC_COMM_WORLD;
   ranks::require(MatCreateMPIAIJWithSplitArrays(comm, A.own.size, A.own.size, A.firsts.back(), A.firsts.back(),
-                                         A.own.offsets.data(), A.own.column.data(), A.own.value.data(),
-                                         A.others.offsets.data(), A.others.column.data(), A.others.value.data(),
-                                         matrix.fresh()),
-          "matrix of a solid on ranks");
+                                                A.own.offsets.data(), A.own.column.data(), A.own.value.data(),
+                                                A.others.offsets.data(), A.others.column.data(), A.others.value.data(),
+                                                matrix.fresh()),
+                 "matrix of a solid on ranks");
 }
 
 /// On these numbers, not a copy.
@@ -85,8 +85,8 @@ Vec Multigrid::Impl::vectorOf(double* values, std::size_t size) const {
   Vec vector = nullptr;
   const auto own = static_cast<PetscInt>(size);
   ranks::require(comm == PETSC_COMM_SELF ? VecCreateSeqWithArray(comm, 3, own, values, &vector)
-                                   : VecCreateMPIWithArray(comm, 3, own, PETSC_DECIDE, values, &vector),
-          "vector of a solid");
+                                         : VecCreateMPIWithArray(comm, 3, own, PETSC_DECIDE, values, &vector),
+                 "vector of a solid");
   return vector;
 }
 
@@ -109,7 +109,8 @@ void Multigrid::Impl::setModes(std::span<const std::vector<double>> modes) {
     raw.push_back(basis[k]);
   }
   Owned<MatNullSpace, MatNullSpaceDestroy> space;
-  ranks::require(MatNullSpaceCreate(comm, PETSC_FALSE, static_cast<PetscInt>(raw.size()), raw.data(), space.fresh()), doing);
+  ranks::require(MatNullSpaceCreate(comm, PETSC_FALSE, static_cast<PetscInt>(raw.size()), raw.data(), space.fresh()),
+                 doing);
   ranks::require(MatSetNearNullSpace(matrix, space), doing);
 }
 

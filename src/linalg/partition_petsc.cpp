@@ -1,5 +1,3 @@
-#include "dovetail/linalg/partition.hpp"
-
 #include <petscdmplex.h>
 #include <scotch.h>
 
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "dovetail/core/team.hpp"
+#include "dovetail/linalg/partition.hpp"
 #include "dovetail/ranks/session.hpp"
 #include "dovetail/ranks/team_of_ranks.hpp"
 #include "petsc_owned.hpp"

@@ -196,7 +196,8 @@ void ImplicitStep::addMeanTangents() {
     if (!conserves_[k]) model_.terms[k]->addTangent(mean_, middle, rowsFor(*model_.terms[k], matrix_));
   for (double& value : matrix_.values()) value *= 0.5;
   for (std::size_t k = 0; k < model_.terms.size(); ++k)
-    if (conserves_[k]) model_.terms[k]->addConservingTangent(model_.nodes, u0_, atEnd(), rowsFor(*model_.terms[k], matrix_));
+    if (conserves_[k])
+      model_.terms[k]->addConservingTangent(model_.nodes, u0_, atEnd(), rowsFor(*model_.terms[k], matrix_));
 }
 
 bool ImplicitStep::direct(double loosest) {

@@ -26,7 +26,7 @@ struct LinearSolver::Impl {
   const Nodes* nodes;
   linalg::DefiniteSolver definite;
   linalg::SparseLu lu{};
-  std::shared_ptr<detail::NodeRows> rows{};     // of multigrid, which is taken if they are there
+  std::shared_ptr<detail::NodeRows> rows{};    // of multigrid, which is taken if they are there
   std::optional<detail::RankRows> rankRows{};  // instead, where ranks share the elements
   std::optional<linalg::Multigrid> multigrid{};
   std::size_t chosenFor = 0;  // pattern

@@ -34,8 +34,7 @@ public:
         throw InputError("the tangent of \"" + term->name() + "\" is not symmetric, so that there may be no modes",
                          "modesOf", "leave it out");
     }
-    if (K_.isPart())
-      throw InputError("elements are shared by ranks", "modesOf", "find modes by one process");
+    if (K_.isPart()) throw InputError("elements are shared by ranks", "modesOf", "find modes by one process");
     addTangents(model, {.t = model.t}, K_);
     linalg::BlockMatrix shifted = K_;
     shift_ = shift();

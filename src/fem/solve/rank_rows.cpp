@@ -119,7 +119,8 @@ void RankRows::lay(const linalg::BlockMatrix& K) {
   blockOffsets_.assign(1, 0);
   blockColumns_.clear(), blockPlaces_.clear();
   std::vector<int> nodeOf(numberOf_.size());
-  for (std::size_t n = 0; n < numberOf_.size(); ++n) nodeOf[static_cast<std::size_t>(numberOf_[n])] = static_cast<int>(n);
+  for (std::size_t n = 0; n < numberOf_.size(); ++n)
+    nodeOf[static_cast<std::size_t>(numberOf_[n])] = static_cast<int>(n);
   std::vector<std::size_t> next(arriving_.size(), 0);
   std::vector<int> columns;
   for (std::size_t row = 0; row < nodes_.size(); ++row) {
@@ -196,7 +197,8 @@ void RankRows::add(std::size_t row, std::span<const int> columns, std::span<cons
       linalg::RowMatrix& part = places[k] % 2 == 1 ? rows_.others : rows_.own;
       auto to = static_cast<std::size_t>(part.offsets[scalar] + places[k] / 2);
       for (int d = 0; d < 3; ++d)
-        if (isFree(columns[k], d)) part.value[to++] += blocks[9 * k + 3 * static_cast<std::size_t>(c) + static_cast<std::size_t>(d)];
+        if (isFree(columns[k], d))
+          part.value[to++] += blocks[9 * k + 3 * static_cast<std::size_t>(c) + static_cast<std::size_t>(d)];
     }
   }
 }
@@ -280,7 +282,8 @@ void RankRows::gather(std::span<const double> own, std::span<double> q) const {
   for (std::size_t n = 0; n < numberOf_.size(); ++n)
     for (int c = 0; c < 3; ++c)
       if (const int free = freeRow(static_cast<int>(n), c); free >= 0)
-        q[static_cast<std::size_t>(free)] = all[3 * static_cast<std::size_t>(numberOf_[n]) + static_cast<std::size_t>(c)];
+        q[static_cast<std::size_t>(free)] =
+            all[3 * static_cast<std::size_t>(numberOf_[n]) + static_cast<std::size_t>(c)];
 }
 
 }  // namespace dovetail::fem::detail

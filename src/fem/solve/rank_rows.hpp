@@ -11,8 +11,8 @@
 
 namespace dovetail::fem::detail {
 
-/// As NodeRows, of the nodes of this rank; rows that other ranks have a part of are sums of all parts. Nodes are numbered
-/// anew, rank after rank. All calls are made by all ranks.
+/// As NodeRows, of the nodes of this rank; rows that other ranks have a part of are sums of all parts. Nodes are
+/// numbered anew, rank after rank. All calls are made by all ranks.
 class RankRows {
 public:
   /// @throws InputError for ties

@@ -138,9 +138,7 @@ void fallSilent() {
 
 }  // namespace
 
-Mail* mailOfFarm() {
-  return theMail != nullptr && theMail->isOfThisThread() && !theMail->joined() ? theMail : nullptr;
-}
+Mail* mailOfFarm() { return theMail != nullptr && theMail->isOfThisThread() && !theMail->joined() ? theMail : nullptr; }
 
 void formTeam() {
   if (mailOfFarm() == nullptr) return;

@@ -238,8 +238,8 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap, built, scene);
   if (const std::string elements = onRanks(*model); !elements.empty())
-    built.notes.push_back("Solid \"" + solid.name + "\" is on " + std::to_string(team().size()) + " ranks: " + elements +
-                          " elements.");
+    built.notes.push_back("Solid \"" + solid.name + "\" is on " + std::to_string(team().size()) +
+                          " ranks: " + elements + " elements.");
   if (solid.gradient) addGradient(*model, mesh, solid, overlap);
   if (solid.gravity && changesGravity(scene))
     model->add(fem::gravity([now = built.changing.gravity](double) { return *now; }));

@@ -189,7 +189,8 @@ TEST(SolidsOnRanks, StatesAreThoseOfOneProcess) {
   };
   for (const Case& one : {Case{metal(), Formulation::standard}, Case{metal(), Formulation::enhanced}}) {
     SCOPED_TRACE(name(one.formulation));
-    Pair pair(one.material, 5, ElementShape::hex8, one.formulation), other(one.material, 5, ElementShape::hex8, one.formulation);
+    Pair pair(one.material, 5, ElementShape::hex8, one.formulation),
+        other(one.material, 5, ElementShape::hex8, one.formulation);
     pair.bend();
     for (Model* model : {&pair.here, &pair.shared}) {
       std::vector<Vec3> f(model->nodes.X.size());
@@ -268,8 +269,9 @@ TEST(SolidsOnRanks, WhatCannotBeSharedIsRefused) {
   Pair modes(rubber());
   modes.addMasses();
   EXPECT_NE(thrown<InputError>([&] { modesOf(modes.shared, {}); }).find("one process"), std::string::npos);
-  EXPECT_NE(thrown<InputError>([&] { pressed(1, rubber(), ElementShape::hex8, Formulation::standard, true); })
-                .find("too few"),
+  EXPECT_NE(thrown<InputError>([&] {
+              pressed(1, rubber(), ElementShape::hex8, Formulation::standard, true);
+            }).find("too few"),
             std::string::npos);
 }
 

@@ -46,13 +46,12 @@ std::vector<double> inBatches(std::span<const double> values, const StateShape& 
   return batches;
 }
 
-std::span<double> numbersOf(std::span<Vec3> field) {
-  return {field.empty() ? nullptr : &field[0].x, 3 * field.size()};
-}
+std::span<double> numbersOf(std::span<Vec3> field) { return {field.empty() ? nullptr : &field[0].x, 3 * field.size()}; }
 
 class SolidOnRanks final : public Solid {
 public:
-  SolidOnRanks(std::shared_ptr<SolidBase> share, const std::vector<std::vector<int>>& numbers) : share_(std::move(share)) {
+  SolidOnRanks(std::shared_ptr<SolidBase> share, const std::vector<std::vector<int>>& numbers)
+      : share_(std::move(share)) {
     std::vector<int> all;
     for (const std::vector<int>& rank : numbers) {
       all.insert(all.end(), rank.begin(), rank.end());

@@ -15,9 +15,9 @@ namespace dovetail::hierarchical {
 /// @throws InputError on several ranks where the build has none (DOVETAIL_RANKS)
 bool serveFarm();
 
-/// The ranks that answer letters go on as this program does, from its beginning: all are one team() (core/team.hpp) from
-/// then on, and cells stay in their processes. To be called where all come by that read the same input; ranks that are
-/// in a team, or alone, do nothing. Others than the first write nothing on screen.
+/// The ranks that answer letters go on as this program does, from its beginning: all are one team() (core/team.hpp)
+/// from then on, and cells stay in their processes. To be called where all come by that read the same input; ranks that
+/// are in a team, or alone, do nothing. Others than the first write nothing on screen.
 void formTeam();
 
 /// That share cells, this one among them: 1 without serveFarm(). On more, fields of cells that the thread of

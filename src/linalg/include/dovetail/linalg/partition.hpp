@@ -7,7 +7,8 @@
 
 namespace dovetail::linalg {
 
-/// All ranks that mpirun has started are one team() from now on, where this build has ranks. To be called by all of them.
+/// All ranks that mpirun has started are one team() from now on, where this build has ranks. To be called by all of
+/// them.
 void meetRanks();
 
 /// Which rank of team() each cell is for: nearly as many to each, and few nodes between them (Scotch, by PETSc's
