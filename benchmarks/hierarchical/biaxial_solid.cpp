@@ -12,9 +12,9 @@
 
 namespace dovetail::benchmark {
 
-rve::Rve sand(std::uint64_t seed) {
+rve::Rve sand(std::uint64_t seed, int discs) {
   rve::Rve cell =
-      rve::randomCell({.count = 400, .seed = seed}, {.modulus = 6e8, .tangential = 0.8, .friction = std::tan(0.5)});
+      rve::randomCell({.count = discs, .seed = seed}, {.modulus = 6e8, .tangential = 0.8, .friction = std::tan(0.5)});
   rve::compress(cell, {.pressure = {1e5, 1e5, 0.0}, .friction = 0.0, .rest = {.tolerance = 1e-6}});
   return cell;
 }

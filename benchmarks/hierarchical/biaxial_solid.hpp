@@ -15,7 +15,7 @@ namespace dovetail::benchmark {
 
 /// 400 discs with what Liang & Zhao 2019 are taken to have (r = 3–7 mm, E = 600 MPa, k_t/k_n = 0.8, φ = 0.5 rad), made
 /// without friction, at rest to 1e-6 under 100 kPa all round.
-rve::Rve sand(std::uint64_t seed);
+rve::Rve sand(std::uint64_t seed, int discs = 400);
 
 struct BiaxialOptions {
   std::array<int, 2> elements{1, 1};

@@ -38,6 +38,7 @@ FigureRows biaxial(bool quick);
 FigureRows column(bool quick);
 FigureRows explicitBiaxial(bool quick);
 FigureRows farm(bool quick);
+FigureRows farmOfLargeCells(bool quick);
 FigureRows lz19Cell(bool quick);
 FigureRows mixedLayer(bool quick);
 FigureRows operators(bool quick);

@@ -18,6 +18,7 @@ const std::vector<Figure> figures{
     {"lz19-cell", "Liang & Zhao 2019, biaxial compression", lz19Cell},
     {"operators", "Desrues et al. 2019, Table 1", operators},
     {"farm", "Desrues et al. 2019, Table 3", farm},
+    {"farm-1600", "Desrues et al. 2019, 1600 discs", farmOfLargeCells},
     {"simple-shear", "Liu 2018, Figs 2.7, 2.10", simpleShear},
     {"servo", "Liu 2018, eqs 2.33, 2.34, Table 2.3", servoFrame},
     {"mixed-layer", "Liu 2018, sec. 2.6, Fig. 2.11", mixedLayer},

@@ -101,7 +101,7 @@ bool isShared(const Solid& solid, const fem::SolidMesh& mesh, const Built& built
   const bool anyCells = std::ranges::any_of(scene.solids, [](const Solid& one) {
     return std::ranges::any_of(materialsOf(one), [](const auto* material) { return hasCells(*material); });
   });
-  const bool consistent = solid.implicitSteps && solid.massFraction.value_or(1.0) > 0.0;
+  const bool consistent = solid.massFraction.value_or(solid.implicitSteps ? 1.0 : 0.0) > 0.0;
   const auto method = static_cast<linalg::LinearMethod>(solid.linearSolver);
   if (method == linalg::LinearMethod::automatic)
     return !anyCells && !consistent && solid.ties.empty() && 3 * mesh.X.size() >= worthSharing;
