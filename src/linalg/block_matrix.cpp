@@ -84,6 +84,7 @@ bool BlockMatrix::takes(int row) const {
 }
 
 void BlockMatrix::setZero() {
+  values_.resize(9 * columns().size());
   parallelFor(values_.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
     std::fill(values_.begin() + static_cast<std::ptrdiff_t>(begin), values_.begin() + static_cast<std::ptrdiff_t>(end),
               0.0);

@@ -180,7 +180,9 @@ bool ImplicitStep::factor(bool exact) {
   if (conserving() && symmetric && !keep) matrix_.symmetrise();
   if (conserving() && keep) symmetric = false;
   factoredStep_ = h;
-  return solver_.factor(matrix_, symmetric);
+  const bool done = solver_.factor(matrix_, symmetric);
+  if (solver_.hasMultigrid()) matrix_.release();
+  return done;
 }
 
 bool ImplicitStep::isSymmetric() const {
