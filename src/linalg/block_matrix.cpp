@@ -39,7 +39,7 @@ void MatrixPattern::add(const NodePairs& pairs) {
   }
 }
 
-NodePairs::NodePairs(MatrixPattern pattern) : patternId_(nextPatternId()) {
+NodePairs::NodePairs(MatrixPattern pattern) : owners_(std::move(pattern.owners_)), patternId_(nextPatternId()) {
   offsets_.assign(1, 0);
   for (std::size_t n = 0; n < pattern.neighbours_.size(); ++n) {
     std::vector<int>& list = pattern.neighbours_[n];
@@ -51,12 +51,20 @@ NodePairs::NodePairs(MatrixPattern pattern) : patternId_(nextPatternId()) {
   }
 }
 
+bool NodePairs::takes(int row) const {
+  return !ownRowsOnly_ || owners_[static_cast<std::size_t>(row)] == team().rank();
+}
+
+void NodePairs::sumOverRanks(std::span<Vec3> y) const {
+  if (isPart()) team().sum(std::span(y.empty() ? nullptr : &y[0].x, 3 * y.size()));
+}
+
 NodeMatrix::NodeMatrix(MatrixPattern pattern) : NodePairs(std::move(pattern)), values_(columns().size(), 0.0) {}
 
 void NodeMatrix::add(std::span<const int> nodes, std::span<const double> matrix) {
   const std::size_t n = nodes.size();
   for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b < n; ++b) values_[place(nodes[a], nodes[b])] += matrix[n * a + b];
+    for (std::size_t b = 0; b < n && takes(nodes[a]); ++b) values_[place(nodes[a], nodes[b])] += matrix[n * a + b];
 }
 
 void NodeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
@@ -69,19 +77,12 @@ void NodeMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
       y[n] = sum;
     }
   });
+  sumOverRanks(y);
 }
 
 BlockMatrix::BlockMatrix(const NodePairs& pairs) : NodePairs(pairs), values_(9 * columns().size(), 0.0) {}
 
 BlockMatrix::BlockMatrix(MatrixPattern pattern) : NodePairs(std::move(pattern)), values_(9 * columns().size(), 0.0) {}
-
-BlockMatrix::BlockMatrix(MatrixPattern pattern, std::vector<int> owners) : BlockMatrix(std::move(pattern)) {
-  owners_ = std::move(owners);
-}
-
-bool BlockMatrix::takes(int row) const {
-  return !ownRowsOnly_ || owners_[static_cast<std::size_t>(row)] == team().rank();
-}
 
 void BlockMatrix::setZero() {
   values_.resize(9 * columns().size());
@@ -144,7 +145,7 @@ void BlockMatrix::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
       y[n] = sum;
     }
   });
-  if (isPart()) team().sum(std::span(y.empty() ? nullptr : &y[0].x, 3 * y.size()));
+  sumOverRanks(y);
 }
 
 }  // namespace dovetail::linalg

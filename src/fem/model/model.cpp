@@ -11,12 +11,6 @@
 
 namespace dovetail::fem {
 
-linalg::MatrixPattern patternOf(const Model& model) {
-  linalg::MatrixPattern pattern(model.nodes.X.size());
-  for (const auto& term : model.terms) term->addPattern(pattern);
-  return pattern;
-}
-
 namespace {
 
 /// A node that the parts of several ranks meet in goes to the one of them with the fewest so far.
@@ -46,22 +40,18 @@ std::vector<int> ownersOf(const linalg::MatrixPattern& own) {
 
 }  // namespace
 
-linalg::BlockMatrix zeroTangent(const Model& model) {
+linalg::MatrixPattern patternOf(const Model& model) {
   const auto isShared = [](const auto& term) { return term->isShared(); };
-  if (std::ranges::none_of(model.terms, isShared)) return linalg::BlockMatrix(patternOf(model));
   linalg::MatrixPattern pattern(model.nodes.X.size());
   for (const auto& term : model.terms)
     if (isShared(term)) term->addPattern(pattern);
-  std::vector<int> owners = ownersOf(pattern);
+  if (std::ranges::any_of(model.terms, isShared)) pattern.setOwners(ownersOf(pattern));
   for (const auto& term : model.terms)
     if (!isShared(term)) term->addPattern(pattern);
-  return {std::move(pattern), std::move(owners)};
+  return pattern;
 }
 
-linalg::BlockMatrix& rowsFor(const Term& term, linalg::BlockMatrix& K) {
-  K.addOwnRowsOnly(!term.isShared());
-  return K;
-}
+linalg::BlockMatrix zeroTangent(const Model& model) { return linalg::BlockMatrix(patternOf(model)); }
 
 void addTangents(const Model& model, const Instant& now, linalg::BlockMatrix& K) {
   for (const auto& term : model.terms) term->addTangent(model.nodes, now, rowsFor(*term, K));

@@ -1,11 +1,12 @@
 #include "dovetail/fem/model/model_mass.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/core/team.hpp"
+#include "solve/newton_tools.hpp"
 
 namespace dovetail::fem {
 
@@ -87,10 +88,12 @@ ModelMass::ModelMass(const Model& model, const DofMap& dofs, double fraction, co
       inverse_.push_back(dofs.freeRow()[k] >= 0 ? 1.0 / mass_[k / 3] : 0.0);
   if (fraction == 0.0) return;
   matrix_ = linalg::NodeMatrix(patternOf(model));
-  for (const auto& term : model.terms) term->addConsistentMass(matrix_);
+  for (const auto& term : model.terms) term->addConsistentMass(rowsFor(*term, matrix_));
   for (double& value : matrix_.values()) value *= fraction;
+  matrix_.addOwnRowsOnly(true);
   for (std::size_t n = 0; n < mass_.size(); ++n)
-    matrix_.values()[matrix_.place(static_cast<int>(n), static_cast<int>(n))] += (1.0 - fraction) * mass_[n];
+    if (matrix_.takes(static_cast<int>(n)))
+      matrix_.values()[matrix_.place(static_cast<int>(n), static_cast<int>(n))] += (1.0 - fraction) * mass_[n];
 }
 
 void ModelMass::multiply(std::span<const Vec3> x, std::span<Vec3> y) const {
@@ -116,9 +119,9 @@ void ModelMass::addTo(linalg::BlockMatrix& S, double factor) const {
     for (std::size_t c = 0; c < 3; ++c) S.values()[9 * place + 4 * c] += factor * mass;
   };
   if (fraction_ == 0.0) {
+    S.addOwnRowsOnly(true);
     for (std::size_t n = 0; n < mass_.size(); ++n)
-      if (!S.isPart() || S.owners()[n] == team().rank())
-        add(S.place(static_cast<int>(n), static_cast<int>(n)), mass_[n]);
+      if (S.takes(static_cast<int>(n))) add(S.place(static_cast<int>(n), static_cast<int>(n)), mass_[n]);
     return;
   }
   if (!std::ranges::equal(S.columns(), matrix_.columns()) || !std::ranges::equal(S.offsets(), matrix_.offsets()))
@@ -146,6 +149,37 @@ void ModelMass::factorOnce() const {
   }
 }
 
+/// By conjugate gradients with the diagonal: what a rank has of a matrix is not to be factorised.
+void ModelMass::solveOnRanks(std::span<Vec3> f) const {
+  const auto hold = [&](std::span<Vec3> field) {
+    for (std::size_t n = 0; n < field.size(); ++n)
+      for (int c = 0; c < 3; ++c)
+        if (!isFree(n, c)) field[n][c] = 0.0;
+  };
+  const auto scale = [&](std::span<const Vec3> r, std::span<Vec3> z) {
+    for (std::size_t n = 0; n < r.size(); ++n) z[n] = (1.0 / mass_[n]) * r[n];
+  };
+  hold(f);
+  std::vector<Vec3> x(f.size()), r(f.begin(), f.end()), z(f.size()), p(f.size()), Mp(f.size());
+  const double enough = linear_.relativeTolerance * detail::normOf(f);
+  scale(r, z);
+  p = z;
+  double now = detail::innerProduct(r, z);
+  for (int k = 0; detail::normOf(std::span<const Vec3>(r)) > enough; ++k) {
+    if (k == linear_.maxIterations)
+      throw NumericalError("conjugate gradients do not converge for the masses", "ModelMass",
+                           "take a lumped mass, or one process");
+    multiply(p, Mp);
+    hold(Mp);
+    const double step = now / detail::innerProduct(p, Mp);
+    for (std::size_t n = 0; n < x.size(); ++n) x[n] += step * p[n], r[n] -= step * Mp[n];
+    scale(r, z);
+    const double before = std::exchange(now, detail::innerProduct(r, z));
+    for (std::size_t n = 0; n < p.size(); ++n) p[n] = z[n] + (now / before) * p[n];
+  }
+  std::ranges::copy(x, f.begin());
+}
+
 void ModelMass::solveTied(std::span<Vec3> f) const {
   if (!tiedSolver_) {
     tied_ = fraction_ > 0.0 ? linalg::BlockMatrix(matrix_) : linalg::BlockMatrix(linalg::MatrixPattern(mass_.size()));
@@ -169,6 +203,7 @@ void ModelMass::solve(std::span<Vec3> f) const {
     });
     return;
   }
+  if (matrix_.isPart()) return solveOnRanks(f);
   factorOnce();
   for (Factor& factor : factors_) factor.solve(f);
   for (std::size_t n = 0; n < f.size(); ++n)

@@ -101,15 +101,12 @@ bool isShared(const Solid& solid, const fem::SolidMesh& mesh, const Built& built
   const bool anyCells = std::ranges::any_of(scene.solids, [](const Solid& one) {
     return std::ranges::any_of(materialsOf(one), [](const auto* material) { return hasCells(*material); });
   });
-  const bool consistent = solid.massFraction.value_or(solid.implicitSteps ? 1.0 : 0.0) > 0.0;
   const auto method = static_cast<linalg::LinearMethod>(solid.linearSolver);
   if (method == linalg::LinearMethod::automatic)
-    return !anyCells && !consistent && solid.ties.empty() && 3 * mesh.X.size() >= worthSharing;
+    return !anyCells && solid.ties.empty() && 3 * mesh.X.size() >= worthSharing;
   if (method != linalg::LinearMethod::multigrid) return false;
   const auto refuse = [](const char* what, const char* remedy) { throw InputError(what, "linear_solver", remedy); };
   if (anyCells) refuse("ranks share cells of grains, or elements", "leave the multigrid out, or start one process");
-  if (consistent)
-    refuse("ranks share elements with lumped masses only", "write \"consistent_mass\": 0, or start one process");
   if (!solid.ties.empty()) refuse("ranks share no elements of meshes that are tied", "start one process");
   return true;
 }

@@ -146,13 +146,14 @@ TEST(SolidsOnRanks, WhatElementsSayIsThatOfOneProcess) {
 }
 
 TEST(SolidsOnRanks, ImplicitStepsAreThoseOfOneProcess) {
-  for (const bool conserves : {false, true}) {
-    SCOPED_TRACE(conserves);
+  for (const auto& [conserves, massFraction] : {std::pair{false, 0.0}, std::pair{true, 0.0}, std::pair{false, 1.0}}) {
+    SCOPED_TRACE(testing::Message() << conserves << ", consistent mass " << massFraction);
     Pair pair(rubber());
     pair.addMasses();
-    const auto run = [&](Model& model, linalg::LinearMethod method) {
-      ImplicitOptions options{.massFraction = 0.0, .linear = {.method = method}};
-      options.scheme = conserves ? energyMomentum() : newmark();
+    const auto run = [scheme = conserves ? energyMomentum() : newmark(), fraction = massFraction](
+                         Model& model, linalg::LinearMethod method) {
+      ImplicitOptions options{.massFraction = fraction, .linear = {.method = method}};
+      options.scheme = scheme;
       ImplicitIntegrator integrator(model, 5e-3, options);
       integrator.run(5);
       return integrator.report();

@@ -142,10 +142,7 @@ public:
   void addBodyMass(std::span<double> mass) const override {
     addSum(mass, [&](std::span<double> own) { share_->addBodyMass(own); });
   }
-  void addConsistentMass(linalg::NodeMatrix&) const override {
-    throw InputError("elements are shared by ranks, and the mass is not lumped", "elements \"" + name() + "\"",
-                     "take a lumped mass, or one process");
-  }
+  void addConsistentMass(linalg::NodeMatrix& M) const override { share_->addConsistentMass(M); }
 
   /// As one process writes it, and reads it.
   void save(ByteWriter& archive) const override {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "dovetail/core/vec3.hpp"
@@ -21,11 +22,15 @@ public:
   void add(const NodePairs& pairs);
   /// Whether a group has the node.
   bool couples(std::size_t node) const { return !neighbours_[node].empty(); }
+  /// From now on it is that of matrices of which each rank of team() has a part, whose sum they are.
+  /// @param owners  the rank of each node: its rows are whole there, once the ranks have told each other theirs
+  void setOwners(std::vector<int> owners) { owners_ = std::move(owners); }
   std::size_t nodes() const { return neighbours_.size(); }
 
 private:
   friend class NodePairs;
   std::vector<std::vector<int>> neighbours_;
+  std::vector<int> owners_;
 };
 
 /// The pairs of nodes that a matrix has an entry for: compressed rows, columns ascending; every node is coupled with
@@ -44,9 +49,22 @@ public:
   /// @throws InputError if the pair is not coupled
   std::size_t place(int row, int column) const;
 
+  /// Empty unless this is a part of a sum over ranks: see MatrixPattern::setOwners.
+  std::span<const int> owners() const { return owners_; }
+  bool isPart() const { return !owners_.empty(); }
+  /// From now on matrices leave out what is added to rows of other ranks: for what all ranks add alike.
+  void addOwnRowsOnly(bool only) { ownRowsOnly_ = only && isPart(); }
+  /// Whether they take that row.
+  bool takes(int row) const;
+
+protected:
+  /// Σ over the ranks, if this is a part.
+  void sumOverRanks(std::span<Vec3> y) const;
+
 private:
-  std::vector<int> offsets_, columns_;
+  std::vector<int> offsets_, columns_, owners_;
   std::size_t patternId_ = 0;
+  bool ownRowsOnly_ = false;
 };
 
 /// One number for every pair of nodes: the same for each component, as masses are.
@@ -59,7 +77,7 @@ public:
   std::span<double> values() { return values_; }
   /// Adds a row-major n × n matrix.
   void add(std::span<const int> nodes, std::span<const double> matrix);
-  /// y = A x, in the order of the rows.
+  /// y = A x, in the order of the rows. Of a part of a sum over ranks: of all of it, by all of them.
   void multiply(std::span<const Vec3> x, std::span<Vec3> y) const;
 
 private:
@@ -73,18 +91,6 @@ public:
   explicit BlockMatrix(MatrixPattern pattern);
   /// With an entry for each of the pairs; all zero.
   explicit BlockMatrix(const NodePairs& pairs);
-  /// One of a sum over the ranks of team(): to be called by all of them.
-  /// @param owners  the rank of each node: its row is whole there, once the ranks have told each other theirs
-  BlockMatrix(MatrixPattern pattern, std::vector<int> owners);
-
-  /// Empty unless it is one of a sum over ranks.
-  std::span<const int> owners() const { return owners_; }
-  bool isPart() const { return !owners_.empty(); }
-  /// From now on add() and addBlock() leave out rows of other ranks: for what all ranks add alike.
-  void addOwnRowsOnly(bool only) { ownRowsOnly_ = only && isPart(); }
-  /// Whether they take that row.
-  bool takes(int row) const;
-
   std::span<const double> values() const { return values_; }
   std::span<double> values() { return values_; }
 
@@ -105,8 +111,6 @@ public:
 
 private:
   std::vector<double> values_;
-  std::vector<int> owners_;
-  bool ownRowsOnly_ = false;
 };
 
 }  // namespace dovetail::linalg

@@ -41,13 +41,17 @@ void addMass(Model& model);
 /// Whether a term lays out the nodes (a grid under material points): their number changes in a run then.
 bool ownsNodes(const Model& model);
 
-/// The groups of nodes that the terms couple.
+/// The groups of nodes that the terms couple. Where terms are shared by ranks, those of this rank's part and of the
+/// other terms: of matrices that are sums over the ranks.
 linalg::MatrixPattern patternOf(const Model& model);
-/// A matrix with a block for every pair of nodes that a term couples; all zero. Where terms are shared by ranks, one of
-/// a sum over them: of the pairs that this rank's part couples, and those of the other terms.
+/// A matrix with a block for every pair of nodes that a term couples; all zero.
 linalg::BlockMatrix zeroTangent(const Model& model);
 /// The matrix for what the term adds: of terms that are not shared, each rank takes the rows of its nodes.
-linalg::BlockMatrix& rowsFor(const Term& term, linalg::BlockMatrix& K);
+template <class Matrix>
+Matrix& rowsFor(const Term& term, Matrix& matrix) {
+  matrix.addOwnRowsOnly(!term.isShared());
+  return matrix;
+}
 /// K += tangents of all terms.
 void addTangents(const Model& model, const Instant& now, linalg::BlockMatrix& K);
 

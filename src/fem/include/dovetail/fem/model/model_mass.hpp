@@ -55,6 +55,7 @@ private:
   struct Factor;
   void factorOnce() const;
   void solveTied(std::span<Vec3> f) const;
+  void solveOnRanks(std::span<Vec3> f) const;
   bool isFree(std::size_t node, int component) const {
     return dofs_->freeRow()[3 * node + static_cast<std::size_t>(component)] >= 0;
   }
