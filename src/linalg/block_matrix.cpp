@@ -85,7 +85,6 @@ BlockMatrix::BlockMatrix(const NodePairs& pairs) : NodePairs(pairs), values_(9 *
 BlockMatrix::BlockMatrix(MatrixPattern pattern) : NodePairs(std::move(pattern)), values_(9 * columns().size(), 0.0) {}
 
 void BlockMatrix::setZero() {
-  values_.resize(9 * columns().size());
   parallelFor(values_.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
     std::fill(values_.begin() + static_cast<std::ptrdiff_t>(begin), values_.begin() + static_cast<std::ptrdiff_t>(end),
               0.0);

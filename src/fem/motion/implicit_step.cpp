@@ -180,9 +180,7 @@ bool ImplicitStep::factor(bool exact) {
   if (conserving() && symmetric && !keep) matrix_.symmetrise();
   if (conserving() && keep) symmetric = false;
   factoredStep_ = h;
-  const bool done = solver_.factor(matrix_, symmetric);
-  if (solver_.hasMultigrid()) matrix_.release();
-  return done;
+  return solver_.factor(matrix_, symmetric);
 }
 
 bool ImplicitStep::isSymmetric() const {

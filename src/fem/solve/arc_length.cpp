@@ -140,9 +140,8 @@ bool PathStep::findRate(double t) {
   equilibrium_.dofs().apply(timeAt(earlier), behind);
   for (std::size_t n = 0; n < ahead.size(); ++n) rate_[n] = (ahead[n] - behind[n]) / (later - earlier);
   forcesAt(t);
-  equilibrium_.assemble();
+  if (!equilibrium_.factor()) return false;
   equilibrium_.stiffness().multiply(rate_, pulled);
-  if (!equilibrium_.factorAssembled()) return false;
   equilibrium_.dofs().reduce(pulled, back);
   for (std::size_t i = 0; i < push.size(); ++i) push[i] -= back[i];
   equilibrium_.solve(push, push);

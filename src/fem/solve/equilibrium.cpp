@@ -91,21 +91,17 @@ Equilibrium::Equilibrium(Model& model, const NewtonOptions& options)
   if (options.mixing > 0) mixing_.emplace(options.mixing);
 }
 
-void Equilibrium::assemble() {
+bool Equilibrium::factor(bool) {
   const auto start = Clock::now();
   K_.setZero();
   addTangents(model(), now(), K_);
   resolution_.measure(K_, model().nodes.X);
   assemblySeconds_ += since(start);
-}
-
-bool Equilibrium::factorAssembled() {
-  const auto start = Clock::now();
+  const auto middle = Clock::now();
   const bool symmetric = std::ranges::all_of(model().terms, [](const auto& term) { return term->isSymmetric(); });
   const bool done = solver_.factor(K_, symmetric);
-  if (solver_.hasMultigrid()) K_.release();  // the rows are those of the solver now
   if (mixing_) mixing_->clear();
-  solverSeconds_ += since(start);
+  solverSeconds_ += since(middle);
   return done;
 }
 
@@ -136,9 +132,8 @@ bool Equilibrium::predict() {
   for (std::size_t n = 0; n < moved.size(); ++n) motion[n] = moved[n] - model().nodes.u[n];
   if (normOf(motion) == 0.0) return true;
   evaluate();
-  assemble();
+  if (!factor()) return false;
   K_.multiply(motion, push);
-  if (!factorAssembled()) return false;
   dofs().reduce(push, part_);
   for (std::size_t i = 0; i < part_.size(); ++i) part_[i] = residual()[i] - part_[i];
   solve(part_, part_);

@@ -67,13 +67,7 @@ public:
   double evaluate() override { return findForces(); }
   double tolerance() const override { return zero(); }
   bool factored() const override { return solver_.factored(); }
-  bool factor(bool = true) override {
-    assemble();
-    return factorAssembled();
-  }
-  /// The tangent of the present state, whose values are there until factorAssembled().
-  void assemble();
-  bool factorAssembled();
+  bool factor(bool exact = true) override;
   bool direct(double loosest) override;
   double slope() const override { return innerProduct(residual(), increment_); }
   void moveTo(double fraction) override;

@@ -95,8 +95,6 @@ public:
   std::span<double> values() { return values_; }
 
   void setZero();
-  /// Gives the memory of the values back: there are none until setZero().
-  void release() { std::vector<double>().swap(values_); }
   /// Adds a row-major (3n × 3n) matrix, rows 3a + c for nodes[a].
   void add(std::span<const int> nodes, std::span<const double> matrix);
   /// Adds a row-major 3 × 3 block.
