@@ -38,8 +38,6 @@ struct LinearSolver::Impl {
   std::int64_t factorisations = 0, solves = 0;
 
   linalg::LinearForecast forecastDirect(const linalg::BlockMatrix& K, bool symmetric) {
-    if (K.values().empty() && K.nodes() > 0)  // given back
-      return forecastDirect(linalg::BlockMatrix(static_cast<const linalg::NodePairs&>(K)), symmetric);
     const linalg::LinearForecast forecast = definite.analyse(reduced.update(K, true));
     if (symmetric) return forecast;
     // L and U, and fronts that pivoting may widen.

@@ -131,7 +131,7 @@ void NodeRows::gather(std::span<const double> all, std::span<double> q) const {
 }
 
 void NodeRows::load(ByteReader& archive, const linalg::BlockMatrix& K) {
-  update(linalg::BlockMatrix(static_cast<const linalg::NodePairs&>(K)), true);  // K may have given its values back
+  update(K, true);
   std::vector<double> values;
   archive(symmetric_, values);
   if (values.size() != rows_.value.size() || !std::ranges::all_of(values, [](double v) { return std::isfinite(v); }))

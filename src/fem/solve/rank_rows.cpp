@@ -147,7 +147,7 @@ void RankRows::lay(const linalg::BlockMatrix& K) {
       for (const int node : rowOf(from.offsets, from.column, k))
         from.place.push_back(placeOf(static_cast<std::size_t>(from.row[k]), node));
   }
-  blockOffsets_ = {}, blockColumns_ = {}, blockPlaces_ = {};
+  for (std::vector<int>* used : {&blockOffsets_, &blockColumns_, &blockPlaces_}) std::vector<int>().swap(*used);
 }
 
 /// The three rows of a node; blocks stand in all that are free at the same place.
