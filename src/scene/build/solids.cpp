@@ -101,16 +101,16 @@ bool isShared(const Solid& solid, const fem::SolidMesh& mesh, const Built& built
   const bool anyCells = std::ranges::any_of(scene.solids, [](const Solid& one) {
     return std::ranges::any_of(materialsOf(one), [](const auto* material) { return hasCells(*material); });
   });
+  if (anyCells) return false;  // ranks share those
   const bool followsOrFinds = std::ranges::any_of(scene.stages, [](const Stage& stage) {
     const auto* const statics = std::get_if<Statics>(&stage.kind);
     return std::holds_alternative<FindModes>(stage.kind) || (statics && statics->arcLength);
   });
   const auto method = static_cast<linalg::LinearMethod>(solid.linearSolver);
   if (method == linalg::LinearMethod::automatic)
-    return !anyCells && !followsOrFinds && solid.ties.empty() && 3 * mesh.X.size() >= worthSharing;
+    return !followsOrFinds && solid.ties.empty() && 3 * mesh.X.size() >= worthSharing;
   if (method != linalg::LinearMethod::multigrid) return false;
   const auto refuse = [](const char* what, const char* remedy) { throw InputError(what, "linear_solver", remedy); };
-  if (anyCells) refuse("ranks share cells of grains, or elements", "leave the multigrid out, or start one process");
   if (followsOrFinds) refuse("modes and paths of equilibria are not found by ranks together", "start one process");
   if (!solid.ties.empty()) refuse("ranks share no elements of meshes that are tied", "start one process");
   return true;
