@@ -35,6 +35,8 @@ public:
   void commit() override {
     inner_->commit();
     steps.push_back(std::exchange(step_, {}));
+    std::fprintf(stderr, "step %zu: %.1f s in cells until now\n", steps.size(),
+                 hierarchical::replay(steps, 1, 0.0, 0.0).alone);
   }
   void revert() override { inner_->revert(); }
   void save(ByteWriter& archive) const override { inner_->save(archive); }

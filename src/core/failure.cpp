@@ -1,11 +1,36 @@
 #include "dovetail/core/failure.hpp"
 
+#include <mutex>
 #include <new>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/lost_error.hpp"
 
 namespace dovetail {
+
+namespace {
+
+struct LastWords {
+  std::mutex mutex;
+  std::string text;
+};
+
+LastWords& theLastWords() {
+  static LastWords words;
+  return words;
+}
+
+}  // namespace
+
+void setLastWords(std::string words) {
+  const std::scoped_lock lock(theLastWords().mutex);
+  theLastWords().text = std::move(words);
+}
+
+std::string lastWords() {
+  const std::scoped_lock lock(theLastWords().mutex);
+  return theLastWords().text;
+}
 
 std::pair<Failure, std::string> failureNow() {
   try {

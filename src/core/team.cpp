@@ -43,7 +43,6 @@ double Team::largest(double own) {
 }
 
 void agree(Failure failure, const std::string& text) {
-  if (team().largest(failure == Failure::none ? 0.0 : 1.0) == 0.0) return;
   ByteWriter letter;
   letter(failure, text);
   std::vector<std::vector<char>> all = team().gather(letter.take());

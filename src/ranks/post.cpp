@@ -23,7 +23,7 @@ struct Post::Sent {
   MPI_Request request = MPI_REQUEST_NULL;
 };
 
-Post::Post() : companions_(std::make_unique<Companions>()) {}
+Post::Post() { companions(); }
 Post::~Post() = default;
 
 void Post::send(int to, std::vector<char> bytes) {
@@ -38,14 +38,14 @@ void Post::send(int to, std::vector<char> bytes) {
 }
 
 void Post::settle() {
-  for (const std::unique_ptr<Sent>& letter : sent_) companions_->wait(letter->request, "sending");
+  for (const std::unique_ptr<Sent>& letter : sent_) companions().wait(letter->request, "sending");
   sent_.clear();
 }
 
 Post::Arrived Post::receive() {
   MPI_Message message = MPI_MESSAGE_NULL;
   MPI_Status status;
-  companions_->waitUntil([&] {
+  companions().waitUntil([&] {
     int there = 0;
     require(MPI_Improbe(MPI_ANY_SOURCE, tag, ownCommunicator(), &there, &message, &status), "waiting for a letter");
     return there != 0;
@@ -55,7 +55,7 @@ Post::Arrived Post::receive() {
   Arrived letter{status.MPI_SOURCE, std::vector<char>(static_cast<std::size_t>(size))};
   MPI_Request request = MPI_REQUEST_NULL;
   require(MPI_Imrecv(letter.bytes.data(), size, MPI_BYTE, &message, &request), "receiving");
-  companions_->wait(request, "receiving");
+  companions().wait(request, "receiving");
   return letter;
 }
 

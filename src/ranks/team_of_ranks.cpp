@@ -57,7 +57,7 @@ public:
     require(MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, all.data(), layout.size.data(),
                             layout.first.data(), MPI_BYTE, ownCommunicator(), &request),
             doing);
-    companions_.wait(request, doing);
+    companions().wait(request, doing);
     return layout.cut(all);
   }
   std::vector<std::vector<char>> exchange(std::vector<std::vector<char>> letters) override {
@@ -71,13 +71,13 @@ public:
     MPI_Request request = MPI_REQUEST_NULL;
     require(MPI_Ialltoall(going.size.data(), 1, MPI_INT, arriving.data(), 1, MPI_INT, ownCommunicator(), &request),
             doing);
-    companions_.wait(request, doing);
+    companions().wait(request, doing);
     const Layout coming(std::move(arriving));
     std::vector<char> in(coming.all);
     require(MPI_Ialltoallv(out.data(), going.size.data(), going.first.data(), MPI_BYTE, in.data(), coming.size.data(),
                            coming.first.data(), MPI_BYTE, ownCommunicator(), &request),
             doing);
-    companions_.wait(request, doing);
+    companions().wait(request, doing);
     return coming.cut(in);
   }
 
@@ -87,20 +87,19 @@ private:
     const int count = static_cast<int>(values.size());
     const void* const own = rank_ == 0 ? MPI_IN_PLACE : values.data();
     require(MPI_Ireduce(own, values.data(), count, MPI_DOUBLE, MPI_SUM, 0, ownCommunicator(), &request), doing);
-    companions_.wait(request, doing);
+    companions().wait(request, doing);
     require(MPI_Ibcast(values.data(), count, MPI_DOUBLE, 0, ownCommunicator(), &request), doing);
-    companions_.wait(request, doing);
+    companions().wait(request, doing);
   }
   std::vector<int> sizesOf(std::size_t own) const {
     const int size = static_cast<int>(own);
     std::vector<int> all(static_cast<std::size_t>(size_));
     MPI_Request request = MPI_REQUEST_NULL;
     require(MPI_Iallgather(&size, 1, MPI_INT, all.data(), 1, MPI_INT, ownCommunicator(), &request), doing);
-    companions_.wait(request, doing);
+    companions().wait(request, doing);
     return all;
   }
 
-  Companions companions_;
   int rank_ = ranks::rank(), size_ = ranks::count();
 };
 
@@ -108,7 +107,9 @@ private:
 
 void formTeam() {
   start();
-  if (count() > 1) setTeam(std::make_unique<RankTeam>());
+  if (count() == 1) return;
+  companions();
+  setTeam(std::make_unique<RankTeam>());
 }
 
 }  // namespace dovetail::ranks

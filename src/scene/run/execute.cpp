@@ -10,6 +10,7 @@
 #include "build/parts.hpp"
 #include "checkpoints.hpp"
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/failure.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
@@ -78,11 +79,12 @@ public:
   /// @throws what a stage throws; where to go on from is told before
   bool finish() {
     try {
-      return finishStages();
+      const bool finished = finishStages();
+      setLastWords({});
+      return finished;
     } catch (...) {
-      if (saved_)
-        log_ << "the last checkpoint is of t = " << formatNumber(*saved_) << " s; to go on from there: dovetail resume "
-             << settings_.folder.string() << std::endl;
+      setLastWords({});
+      if (saved_) log_ << whereToGoOn() << std::endl;
       throw;
     }
   }
@@ -335,7 +337,15 @@ private:
     countTime();
     writeTimes(settings_.folder, provenance_, seconds_);
     writeCheckpoint(settings_.folder, identity_, progress_, *built_.run);
-    saved_ = built_.run->time();
+    keepWords(built_.run->time());
+  }
+  void keepWords(double saved) {
+    saved_ = saved;
+    setLastWords(whereToGoOn());
+  }
+  std::string whereToGoOn() const {
+    return "the last checkpoint is of t = " + formatNumber(*saved_) + " s; to go on from there: dovetail resume " +
+           settings_.folder.string();
   }
   void writeScene() const {
     io::writeFileAtomically(file("scene.json"), io::provenanceLines(provenance_, "// ") + sceneText(scene_));
@@ -345,7 +355,7 @@ private:
     const Checkpoint last = lastCheckpoint(settings_.folder, log_, Damaged::isSetAside);
     progress_ = last.progress;
     adopt(last, identity_, built_, scene_);
-    saved_ = last.time;
+    keepWords(last.time);
     seconds_ = readTimes(settings_.folder, scene_.stages.size());
     if (settings_.until) {
       lengthen(scene_, plan_, progress_, *built_.run, *settings_.until);

@@ -118,7 +118,7 @@ public:
     together([&] { share_->requireValid(nodes, when, scrutiny); });
   }
   std::optional<StableStep> stableStep(const Nodes& nodes) override {
-    std::optional<StableStep> own;
+    std::optional<StableStep> own, least;
     together([&] { own = share_->stableStep(nodes); });
     ByteWriter letter;
     letter(own.has_value());
@@ -131,9 +131,9 @@ public:
       StableStep other;
       reader(other.dt, other.owner, other.element);
       other.solid = name();
-      if (!own || other.dt < own->dt) own = other;
+      if (!least || other.dt < least->dt) least = other;
     }
-    return own;
+    return least;
   }
 
   void addMass(std::span<double> mass) const override {

@@ -21,4 +21,9 @@ std::pair<Failure, std::string> failureNow();
 /// Throws it here. @param where  it was thrown
 [[noreturn]] void raise(Failure failure, const std::string& text, const std::string& where);
 
+/// What the program still has to say, such as where its last checkpoint is, should it be ended without getting to its
+/// own end. Of any thread.
+void setLastWords(std::string words);
+std::string lastWords();
+
 }  // namespace dovetail

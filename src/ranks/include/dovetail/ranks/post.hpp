@@ -6,9 +6,8 @@
 
 namespace dovetail::ranks {
 
-class Companions;
-
-/// Each rank has its own, made after start() on all ranks. Not for threads.
+/// Each rank has its own, made after start() on all ranks. Not for threads. Where another rank of this machine ends,
+/// the first one that does not wait for a letter ends the program with code 1, with the words of setLastWords().
 class Post {
 public:
   struct Arrived {
@@ -34,7 +33,6 @@ private:
   struct Sent;
 
   std::vector<std::unique_ptr<Sent>> sent_;
-  std::unique_ptr<const Companions> companions_;
 };
 
 }  // namespace dovetail::ranks
