@@ -37,7 +37,8 @@ Ending endingOf(const std::function<bool()>& body) {
 [[noreturn]] void leaveTeam(const std::string& name, const Ending& ending) {
   if (team().rank() > 0) {
     std::this_thread::sleep_for(std::chrono::seconds(3));
-    std::fprintf(stderr, "%s, rank %d: %s\n", name.c_str(), team().rank(), ending.text.c_str());
+    if (!ending.text.empty())
+      std::fprintf(stderr, "%s, rank %d: %s\n", name.c_str(), team().rank(), ending.text.c_str());
   }
   std::cout.flush();
   std::fflush(nullptr);

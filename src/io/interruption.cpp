@@ -45,6 +45,7 @@ InterruptionGuard::~InterruptionGuard() {
 }
 
 int interruption() { return noted.load(std::memory_order_relaxed); }
+void noteInterruption(int number) { note(number); }
 
 void interruptAfter(double seconds) {
   if (!(seconds >= 1e-6 && seconds <= 1e8))

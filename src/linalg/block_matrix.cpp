@@ -51,9 +51,7 @@ NodePairs::NodePairs(MatrixPattern pattern) : owners_(std::move(pattern.owners_)
   }
 }
 
-bool NodePairs::takes(int row) const {
-  return !ownRowsOnly_ || owners_[static_cast<std::size_t>(row)] == team().rank();
-}
+bool NodePairs::isOwn(int row) const { return owners_[static_cast<std::size_t>(row)] == team().rank(); }
 
 void NodePairs::sumOverRanks(std::span<Vec3> y) const {
   if (isPart()) team().sum(std::span(y.empty() ? nullptr : &y[0].x, 3 * y.size()));

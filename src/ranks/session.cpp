@@ -7,6 +7,8 @@
 #include <string>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/lost_error.hpp"
+#include "dovetail/core/team.hpp"
 
 namespace dovetail::ranks {
 
@@ -60,8 +62,11 @@ void require(int code, const char* doing) {
   if (code == PETSC_ERR_MEM) throw std::bad_alloc();
   const char* text = nullptr;
   PetscErrorMessage(static_cast<PetscErrorCode>(code), &text, nullptr);
-  throw NumericalError("PETSc or MPI stops with code " + std::to_string(code) + (text ? std::string(": ") + text : ""),
-                       doing, "take another linear solver, or one process");
+  const std::string what =
+      "PETSc or MPI stops with code " + std::to_string(code) + (text ? std::string(": ") + text : "");
+  // Others of a team are not out of it: this one may not try again without them.
+  if (team().size() > 1) throw LostError(what, doing, "take one process, or more ranks");
+  throw NumericalError(what, doing, "take another linear solver, or one process");
 }
 
 }  // namespace dovetail::ranks

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "companions.hpp"
-#include "dovetail/core/error.hpp"
+#include "dovetail/core/lost_error.hpp"
 #include "dovetail/core/team.hpp"
 #include "dovetail/ranks/session.hpp"
 
@@ -27,7 +27,7 @@ struct Layout {
   explicit Layout(std::vector<int> sizes) : size(std::move(sizes)), first(size.size(), 0) {
     for (std::size_t k = 0; k < size.size(); all += static_cast<std::size_t>(size[k]), ++k) {
       if (all > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw NumericalError("what ranks have for each other is 2 GiB or more", "ranks", "take more ranks");
+        throw LostError("what a rank has for the others is 2 GiB or more", "ranks", "take more ranks");
       first[k] = static_cast<int>(all);
     }
   }
@@ -50,15 +50,22 @@ public:
     for (; values.size() > most; values = values.subspan(most)) sumOf(values.first(most));
     sumOf(values);
   }
+  /// In pieces: MPI counts bytes by int.
   std::vector<std::vector<char>> gather(std::vector<char> own) override {
-    const Layout layout(sizesOf(own.size()));
-    std::vector<char> all(layout.all);
-    MPI_Request request = MPI_REQUEST_NULL;
-    require(MPI_Iallgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, all.data(), layout.size.data(),
-                            layout.first.data(), MPI_BYTE, ownCommunicator(), &request),
-            doing);
-    companions().wait(request, doing);
-    return layout.cut(all);
+    const std::vector<std::size_t> sizes = sizesOf(own.size());
+    const std::size_t piece = (std::size_t{1} << 30) / sizes.size();
+    std::vector<std::vector<char>> letters(sizes.size());
+    for (std::size_t first = 0; first < std::ranges::max(sizes); first += piece) {
+      std::vector<int> now;
+      for (const std::size_t size : sizes)
+        now.push_back(static_cast<int>(std::min(piece, size - std::min(first, size))));
+      const Layout layout(std::move(now));
+      const std::vector<std::vector<char>> parts =
+          layout.cut(gatherAs(layout, std::span(own).subspan(std::min(first, own.size()))));
+      for (std::size_t rank = 0; rank < parts.size(); ++rank)
+        letters[rank].insert(letters[rank].end(), parts[rank].begin(), parts[rank].end());
+    }
+    return letters;
   }
   std::vector<std::vector<char>> exchange(std::vector<std::vector<char>> letters) override {
     std::vector<int> sizes, arriving(letters.size());
@@ -91,11 +98,20 @@ private:
     require(MPI_Ibcast(values.data(), count, MPI_DOUBLE, 0, ownCommunicator(), &request), doing);
     companions().wait(request, doing);
   }
-  std::vector<int> sizesOf(std::size_t own) const {
-    const int size = static_cast<int>(own);
-    std::vector<int> all(static_cast<std::size_t>(size_));
+  std::vector<std::size_t> sizesOf(std::size_t own) const {
+    std::vector<std::size_t> all(static_cast<std::size_t>(size_));
     MPI_Request request = MPI_REQUEST_NULL;
-    require(MPI_Iallgather(&size, 1, MPI_INT, all.data(), 1, MPI_INT, ownCommunicator(), &request), doing);
+    require(MPI_Iallgather(&own, sizeof own, MPI_BYTE, all.data(), sizeof own, MPI_BYTE, ownCommunicator(), &request),
+            doing);
+    companions().wait(request, doing);
+    return all;
+  }
+  std::vector<char> gatherAs(const Layout& layout, std::span<const char> own) const {
+    std::vector<char> all(layout.all);
+    MPI_Request request = MPI_REQUEST_NULL;
+    require(MPI_Iallgatherv(own.data(), layout.size[static_cast<std::size_t>(rank_)], MPI_BYTE, all.data(),
+                            layout.size.data(), layout.first.data(), MPI_BYTE, ownCommunicator(), &request),
+            doing);
     companions().wait(request, doing);
     return all;
   }

@@ -1,6 +1,6 @@
 #!/bin/bash
 # A scene whose solid is shared by ranks: its results are those of one process, a killed rank ends all, and the run goes
-# on on other ranks. usage: on_ranks.sh PROGRAM MPIEXEC SCENE
+# on on other ranks, as it does when its time was up. usage: on_ranks.sh PROGRAM MPIEXEC SCENE
 set -u
 program="$1" mpiexec="$2" scene="$3"
 work="$(mktemp -d)"
@@ -33,3 +33,16 @@ expect_same "$work/three"
 
 ranks 2 run "$scene" --out "$work/two" > "$work/again.txt" 2>&1 && fail "a run was overwritten"
 [ "$(grep -c '^dovetail: there is a run in this folder' "$work/again.txt")" = 1 ] || { cat "$work/again.txt"; fail "no refusal"; }
+
+ranks 3 run "$scene" --out "$work/short" --max-wall-seconds 1 > "$work/short.txt" 2>&1
+status=$?
+[ $status = 142 ] || { cat "$work/short.txt"; fail "its time was up, and the exit code is $status"; }
+[ "$(grep -c 'its time was up at t = ' "$work/short.txt")" = 1 ] || { cat "$work/short.txt"; fail "no stop is told"; }
+ranks 2 resume "$work/short" > "$work/resumed.txt" 2>&1 || { cat "$work/resumed.txt"; fail "it does not go on"; }
+expect_same "$work/short"
+
+sed 's/0.03\*t/0.04*t/' "$scene" > "$work/other.json"
+one=(-n 1 "$program" run)
+"$mpiexec" --mca plm isolated --oversubscribe --allow-run-as-root "${one[@]}" "$scene" --out "$work/both" : \
+  "${one[@]}" "$work/other.json" --out "$work/both" > "$work/both.txt" 2>&1 && fail "ranks with different scenes run"
+[ "$(grep -c 'rank 1 begins with another scene' "$work/both.txt")" = 1 ] || { cat "$work/both.txt"; fail "no refusal"; }

@@ -157,7 +157,7 @@ void ModelMass::solveOnRanks(std::span<Vec3> f) const {
         if (!isFree(n, c)) field[n][c] = 0.0;
   };
   const auto scale = [&](std::span<const Vec3> r, std::span<Vec3> z) {
-    for (std::size_t n = 0; n < r.size(); ++n) z[n] = (1.0 / mass_[n]) * r[n];
+    for (std::size_t n = 0; n < r.size(); ++n) z[n] = mass_[n] > 0.0 ? (1.0 / mass_[n]) * r[n] : Vec3{};
   };
   hold(f);
   std::vector<Vec3> x(f.size()), r(f.begin(), f.end()), z(f.size()), p(f.size()), Mp(f.size());
@@ -165,8 +165,8 @@ void ModelMass::solveOnRanks(std::span<Vec3> f) const {
   scale(r, z);
   p = z;
   double now = detail::innerProduct(r, z);
-  for (int k = 0; detail::normOf(std::span<const Vec3>(r)) > enough; ++k) {
-    if (k == linear_.maxIterations)
+  for (int k = 0; !(detail::normOf(std::span<const Vec3>(r)) <= enough); ++k) {
+    if (k == linear_.maxIterations || !std::isfinite(now))
       throw NumericalError("conjugate gradients do not converge for the masses", "ModelMass",
                            "take a lumped mass, or one process");
     multiply(p, Mp);

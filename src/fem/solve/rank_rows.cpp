@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/lost_error.hpp"
 #include "dovetail/core/team.hpp"
 
 namespace dovetail::fem::detail {
@@ -176,8 +177,7 @@ void RankRows::layRow(std::size_t row, std::span<const int> columns, std::span<c
     }
     for (linalg::RowMatrix* part : {&rows_.own, &rows_.others}) {
       if (part->column.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw NumericalError("the rows of a rank have more than 2147483647 entries", "linear solver",
-                             "take more ranks");
+        throw LostError("the rows of a rank have more than 2147483647 entries", "linear solver", "take more ranks");
       part->offsets.push_back(static_cast<int>(part->column.size()));
     }
   }

@@ -108,7 +108,7 @@ bool isShared(const Solid& solid, const fem::SolidMesh& mesh, const Built& built
   });
   const auto method = static_cast<linalg::LinearMethod>(solid.linearSolver);
   if (method == linalg::LinearMethod::automatic)
-    return !followsOrFinds && solid.ties.empty() && 3 * mesh.X.size() >= worthSharing;
+    return !followsOrFinds && solid.ties.empty() && !solid.gradient && 3 * mesh.X.size() >= worthSharing;
   if (method != linalg::LinearMethod::multigrid) return false;
   const auto refuse = [](const char* what, const char* remedy) { throw InputError(what, "linear_solver", remedy); };
   if (followsOrFinds) refuse("modes and paths of equilibria are not found by ranks together", "start one process");

@@ -9,6 +9,7 @@
 #include "dovetail/core/atomic_file.hpp"
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
+#include "dovetail/core/team.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/scene/read.hpp"
@@ -67,12 +68,32 @@ Checkpoint lastCheckpoint(const fs::path& folder, std::ostream& log, Damaged dam
   }
 }
 
+namespace {
+
+std::vector<std::uint64_t> fingerprintsOf(const coupling::CoupledRun& run) {
+  std::vector<std::uint64_t> meshes;
+  for (std::size_t s = 0; s < run.solids(); ++s) meshes.push_back(fingerprintOf(run.solid(s).nodes().X));
+  return meshes;
+}
+
+}  // namespace
+
+void requireSameOnRanks(const std::string& identity, coupling::CoupledRun& run) {
+  if (team().size() == 1) return;
+  ByteWriter archive;
+  archive(identity, fingerprintsOf(run), run.save());
+  const std::string digest = hashOf({archive.bytes().begin(), archive.bytes().end()});
+  const std::vector<std::vector<char>> all = team().gather({digest.begin(), digest.end()});
+  for (std::size_t rank = 1; rank < all.size(); ++rank)
+    if (all[rank] != all[0])
+      throw InputError("rank " + std::to_string(rank) + " begins with another scene or state than rank 0", "ranks",
+                       "leave all files of the scene as they are while it starts, and give all ranks the same ones");
+}
+
 void writeCheckpoint(const fs::path& folder, const std::string& identity, const Progress& progress,
                      coupling::CoupledRun& run) {
   ByteWriter archive;
-  std::vector<std::uint64_t> meshes;
-  for (std::size_t s = 0; s < run.solids(); ++s) meshes.push_back(fingerprintOf(run.solid(s).nodes().X));
-  archive(identity, meshes, run.time());
+  archive(identity, fingerprintsOf(run), run.time());
   archiveProgress(archive, progress);
   archive(run.save());
   if (!writesFiles()) return;

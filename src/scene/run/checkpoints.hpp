@@ -64,6 +64,10 @@ enum class Damaged { isLeft, isSetAside };
 /// @throws InputError if there is none
 Checkpoint lastCheckpoint(const std::filesystem::path& folder, std::ostream& log, Damaged damaged);
 
+/// Ranks that share a solid compute all else on their own, from files that each has read.
+/// @throws InputError on all of them if they do not begin with the same bytes
+void requireSameOnRanks(const std::string& identity, coupling::CoupledRun& run);
+
 /// Keeps the last checkpoint, and the one before.
 void writeCheckpoint(const std::filesystem::path& folder, const std::string& identity, const Progress& progress,
                      coupling::CoupledRun& run);

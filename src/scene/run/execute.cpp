@@ -39,7 +39,11 @@ constexpr std::int64_t arcsPerLoadStep = 200;      // of a path of equilibria, a
 constexpr std::int64_t deepEvery = 5 * lookEvery;  // at contacts: a look costs as much as half a step
 
 /// Of a team all ranks, whichever of them a signal has asked.
-bool stopsNow() { return team().largest(io::interruption()) != 0.0; }
+bool stopsNow() {
+  const int signal = static_cast<int>(team().largest(io::interruption()));
+  if (signal != 0) io::noteInterruption(signal);
+  return signal != 0;
+}
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -64,6 +68,7 @@ public:
       series_ = std::make_unique<Series>(built_, scene_,
                                          SeriesFiles{settings.folder, provenance_, scene_.output.hdf5, plan_.series});
     if (goesOn) takeState();
+    requireSameOnRanks(identity_, *built_.run);
     if (plan_.frames > 0)
       frames_ = std::make_unique<Frames>(built_, scene_, settings.folder, provenance_, progress_.frames);
     for (const std::string& note : built_.notes) log_ << note << '\n';
@@ -371,6 +376,7 @@ private:
     close();
     log_ << io::nameOfInterruption() << " at t = " << built_.run->time() << " s; go on with: dovetail resume "
          << settings_.folder.string() << std::endl;
+    team().meet();  // mpirun ends all once one has left, and the first one writes
     return false;
   }
 

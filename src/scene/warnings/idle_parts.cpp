@@ -21,8 +21,8 @@ void lookAtIdleRanks(const Built& built, Lines& lines) {
     if (!farmsOf(*built.run->solid(s).model).empty()) return;
   lines.push_back(
       std::to_string(ranks) +
-      " ranks were started, but no solid has cells of grains or is solved by multigrid, which they could share, and "
-      "one does all: start the program alone, with threads.");
+      " ranks were started, but no solid has cells of grains, or elements that they share, and one does all: start the "
+      "program alone, with threads.");
 }
 
 // ---- walls

@@ -67,6 +67,18 @@ double apart(std::span<const Vec3> a, std::span<const Vec3> b) {
   return difference / size;
 }
 
+/// Of their tangents with a vector.
+double productsApart(Pair& pair) {
+  std::vector<Vec3> x(pair.here.nodes.X.size()), y(x.size()), z(x.size());
+  for (std::size_t n = 0; n < x.size(); ++n) x[n] = {std::sin(7.0 * double(n)), std::cos(3.0 * double(n)), 1.0};
+  linalg::BlockMatrix whole = zeroTangent(pair.here), part = zeroTangent(pair.shared);
+  addTangents(pair.here, {}, whole);
+  addTangents(pair.shared, {}, part);
+  whole.multiply(x, y);
+  part.multiply(x, z);
+  return apart(y, z);
+}
+
 TEST(SolidsOnRanks, EquilibriaAreThoseOfOneProcess) {
   struct Case {
     const char* name;
@@ -102,18 +114,12 @@ TEST(SolidsOnRanks, EquilibriaAreThoseOfOneProcess) {
 TEST(SolidsOnRanks, MatricesAreSumsOfTheirParts) {
   Pair pair(rubber());
   pair.bend();
-  linalg::BlockMatrix whole = zeroTangent(pair.here), part = zeroTangent(pair.shared);
+  const linalg::BlockMatrix whole = zeroTangent(pair.here), part = zeroTangent(pair.shared);
   EXPECT_EQ(part.isPart(), team().size() > 1);
   if (team().size() > 1) {
     EXPECT_LT(part.columns().size(), whole.columns().size());
   }
-  addTangents(pair.here, {}, whole);
-  addTangents(pair.shared, {}, part);
-  std::vector<Vec3> x(pair.here.nodes.X.size()), y(x.size()), z(x.size());
-  for (std::size_t n = 0; n < x.size(); ++n) x[n] = {std::sin(7.0 * double(n)), std::cos(3.0 * double(n)), 1.0};
-  whole.multiply(x, y);
-  part.multiply(x, z);
-  EXPECT_LT(apart(y, z), 1e-13);
+  EXPECT_LT(productsApart(pair), 1e-13);
 }
 
 TEST(SolidsOnRanks, WhatElementsSayIsThatOfOneProcess) {
@@ -270,10 +276,20 @@ TEST(SolidsOnRanks, WhatCannotBeSharedIsRefused) {
   Pair modes(rubber());
   modes.addMasses();
   EXPECT_NE(thrown<InputError>([&] { modesOf(modes.shared, {}); }).find("one process"), std::string::npos);
-  EXPECT_NE(thrown<InputError>([&] {
-              pressed(1, rubber(), ElementShape::hex8, Formulation::standard, true);
-            }).find("too few"),
-            std::string::npos);
+}
+
+/// They are whole on each rank, beside those that are shared.
+TEST(SolidsOnRanks, FewElementsStayTogether) {
+  Pair pair(metal());
+  SolidMesh mesh = boxOf(ElementShape::hex8, {5, 5, 5}, {10.0, -20.0, 5.0}, {11.0, -19.0, 6.0});
+  mesh.elementSets["inlay"] = {62};
+  for (Model* model : {&pair.here, &pair.shared})
+    model->add(makeSolid(mesh, sand(), {.elementSet = "inlay", .name = "inlay", .onRanks = model == &pair.shared}));
+  EXPECT_FALSE(pair.shared.terms.back()->isShared());
+  EXPECT_LT(productsApart(pair), 1e-13);
+  solve(pair.here, linalg::LinearMethod::direct);
+  solve(pair.shared, byMultigrid);
+  EXPECT_LT(apart(pair.here, pair.shared), 1e-8);
 }
 
 }  // namespace

@@ -66,8 +66,9 @@ std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<const Po
   detail::SolidCells cells = cellsFor(mesh, options);
   if (!options.onRanks || team().size() == 1)
     return makeSolidOf(std::move(cells), detail::pointsOf(std::move(material)), options);
-  const std::vector<std::vector<int>> numbers = detail::keepShare(cells);
-  return detail::solidOnRanks(makeSolidOf(std::move(cells), detail::pointsOf(std::move(material)), options), numbers);
+  const std::optional<std::vector<std::vector<int>>> numbers = detail::keepShare(cells);
+  std::shared_ptr<Solid> own = makeSolidOf(std::move(cells), detail::pointsOf(std::move(material)), options);
+  return numbers ? detail::solidOnRanks(own, *numbers) : own;
 }
 
 std::shared_ptr<Solid> makeSolid(const SolidMesh& mesh, std::shared_ptr<PointField> field,

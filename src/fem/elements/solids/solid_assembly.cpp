@@ -75,9 +75,12 @@ void SolidBase::findPlaces(const linalg::BlockMatrix& K) {
   places_.resize(cells_.size() * n * n);
   parallelFor(cells_.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t e = begin; e < end; ++e)
-      for (std::size_t a = 0; a < n; ++a)
+      for (std::size_t a = 0; a < n; ++a) {
+        const int row = cells_.nodeOf(e, a);
+        if (!K.takes(row)) continue;
         for (std::size_t b = 0; b < n; ++b)
-          places_[(e * n + a) * n + b] = static_cast<std::uint32_t>(K.place(cells_.nodeOf(e, a), cells_.nodeOf(e, b)));
+          places_[(e * n + a) * n + b] = static_cast<std::uint32_t>(K.place(row, cells_.nodeOf(e, b)));
+      }
   });
   placesOf_ = K.patternId();
 }
@@ -87,13 +90,15 @@ void SolidBase::scatter(std::size_t batch, const Lane* matrix, double fraction, 
   const std::span<double> values = K.values();
   for (std::size_t lane = 0; lane < cells_.inUse(batch); ++lane) {
     const std::uint32_t* const place = &places_[(laneCount * batch + lane) * n * n];
-    for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t a = 0; a < n; ++a) {
+      if (!K.takes(cells_.nodeOf(laneCount * batch + lane, a))) continue;
       for (std::size_t b = 0; b < n; ++b) {
         double* const block = &values[9 * static_cast<std::size_t>(place[a * n + b])];
         for (std::size_t i = 0; i < 3; ++i)
           for (std::size_t k = 0; k < 3; ++k)
             block[3 * i + k] += fraction * matrix[3 * n * (3 * a + i) + 3 * b + k][static_cast<int>(lane)];
       }
+    }
   }
 }
 

@@ -238,7 +238,7 @@ private:
 
 }  // namespace
 
-std::vector<std::vector<int>> keepShare(SolidCells& cells) {
+std::optional<std::vector<std::vector<int>>> keepShare(SolidCells& cells) {
   const auto ranks = static_cast<std::size_t>(team().size());
   const int each = cornersOf(cells.shape);
   std::vector<int> corners;
@@ -252,9 +252,7 @@ std::vector<std::vector<int>> keepShare(SolidCells& cells) {
     numbers[static_cast<std::size_t>(owner[e])].push_back(cells.number[e]);
     if (owner[e] == team().rank()) own.push_back(static_cast<int>(e));
   }
-  if (std::ranges::any_of(numbers, [](const auto& rank) { return rank.empty(); }))
-    throw InputError(std::to_string(owner.size()) + " elements are too few for " + std::to_string(ranks) + " ranks",
-                     "elements", "take fewer ranks");
+  if (std::ranges::any_of(numbers, [](const auto& rank) { return rank.empty(); })) return std::nullopt;
   keep(cells, own);
   return numbers;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "dovetail/fem/elements/solid.hpp"
@@ -9,8 +10,9 @@
 
 namespace dovetail::fem::detail {
 
-/// Leaves the elements that are this rank's. @return numbers in the mesh of those of all ranks, rank after rank
-std::vector<std::vector<int>> keepShare(SolidCells& cells);
+/// Leaves the elements that are this rank's. @return numbers in the mesh of those of all ranks, rank after rank;
+/// nothing, and leaves all, where they are too few for so many ranks
+std::optional<std::vector<std::vector<int>>> keepShare(SolidCells& cells);
 
 /// @param share  with the elements of this rank @param numbers  what keepShare() has returned
 std::shared_ptr<Solid> solidOnRanks(const std::shared_ptr<Solid>& share, const std::vector<std::vector<int>>& numbers);

@@ -31,6 +31,8 @@ public:
   /// Of all ranks.
   double sum(double own);
   double largest(double own);
+  /// Waits for all.
+  void meet() { largest(0.0); }
 };
 
 /// Of this process: a rank on its own until there is another. Not for threads.

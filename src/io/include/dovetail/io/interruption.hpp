@@ -25,6 +25,8 @@ private:
 /// writes everything and says so; its program then ends with the exit code 128 + number, as shells have it. Costs a
 /// load from memory, so it may be called at every step.
 int interruption();
+/// As if that signal had come: for one that another process of the run has had.
+void noteInterruption(int number);
 
 /// Lets SIGALRM come after so many seconds of wall-clock time, once: within a guard, a limit to what a run may take.
 /// Takes the place of an earlier limit and of any other timer of alarm(2). Child processes do not inherit it.

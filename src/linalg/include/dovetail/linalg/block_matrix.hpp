@@ -55,13 +55,15 @@ public:
   /// From now on matrices leave out what is added to rows of other ranks: for what all ranks add alike.
   void addOwnRowsOnly(bool only) { ownRowsOnly_ = only && isPart(); }
   /// Whether they take that row.
-  bool takes(int row) const;
+  bool takes(int row) const { return !ownRowsOnly_ || isOwn(row); }
 
 protected:
   /// Σ over the ranks, if this is a part.
   void sumOverRanks(std::span<Vec3> y) const;
 
 private:
+  bool isOwn(int row) const;
+
   std::vector<int> offsets_, columns_, owners_;
   std::size_t patternId_ = 0;
   bool ownRowsOnly_ = false;

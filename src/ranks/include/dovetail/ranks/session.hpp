@@ -17,7 +17,7 @@ int count();
 [[noreturn]] void abortAll();
 
 /// @param code  of a call of PETSc or MPI @param doing  for the message
-/// @throws NumericalError unless it is 0; std::bad_alloc for lack of memory
+/// @throws NumericalError unless it is 0, LostError on ranks of a team; std::bad_alloc for lack of memory
 void require(int code, const char* doing);
 
 }  // namespace dovetail::ranks
