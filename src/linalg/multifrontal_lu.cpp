@@ -1,19 +1,82 @@
 #include "dovetail/linalg/multifrontal_lu.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "dense_panel.hpp"
 
 namespace dovetail::linalg {
 
 namespace {
 
+using Eigen::Index;
+
+constexpr Index panelWidth = 16;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A dense matrix by columns, whose first `own` unknowns are eliminated.
+struct DenseFront {
+  double* values;
+  Index size, own;
+  double* column(Index c) const { return values + c * size; }
+  detail::Panel part(Index row, Index column, Index rows, Index columns) const {
+    const auto unsignedOf = [](Index n) { return static_cast<std::size_t>(n); };
+    return {values + column * size + row, unsignedOf(size), unsignedOf(rows), unsignedOf(columns)};
+  }
+};
+
+/// Columns c … c + count − 1 behind the panel of columns first … end − 1: U₁₂ = L₁₁⁻¹ A₁₂, and A₂₂ − L₂₁ U₁₂ below.
+template <int count>
+[[gnu::always_inline]] inline void subtractPanel(const DenseFront& front, Index first, Index end, Index c) {
+  const detail::Vectors<count> entry{front.column(c), static_cast<std::size_t>(front.size)};
+  for (Index k = first; k + 1 < end; ++k)
+    detail::panel::subtractColumns<1>(front.part(k + 1, k, end - k - 1, 1), 0, entry.from(static_cast<std::size_t>(k)),
+                                      entry.from(static_cast<std::size_t>(k) + 1));
+  detail::panel::subtractProduct(front.part(end, first, front.size - end, end - first),
+                                 entry.from(static_cast<std::size_t>(first)),
+                                 entry.from(static_cast<std::size_t>(end)));
+}
+
+/// Moves the largest entry of column k among the own rows to the diagonal. @return the row that it was in, −1 if there
+/// is none but zeros, or one that is not finite
+[[gnu::always_inline]] inline Index pivot(const DenseFront& front, Index k) {
+  const double* const column = front.column(k);
+  Index best = k;
+  for (Index r = k + 1; r < front.own; ++r)
+    if (!(std::abs(column[r]) <= std::abs(column[best]))) best = r;
+  if (column[best] == 0.0 || !std::isfinite(column[best])) return -1;
+  if (best != k)
+    for (Index c = 0; c < front.size; ++c) std::swap(front.column(c)[k], front.column(c)[best]);
+  return best;
+}
+
+/// P A = L U of the own unknowns, L₂₁ and U₁₂ in their places, and what is left of the others in theirs.
+/// @param swaps  the row that each own one was exchanged with @return false if a pivot is zero
+bool eliminateOwn(const DenseFront& front, int* swaps) {
+  constexpr int together = 4;
+  for (Index first = 0; first < front.own; first += panelWidth) {
+    const Index end = std::min(first + panelWidth, front.own);
+    for (Index k = first; k < end; ++k) {
+      const Index from = pivot(front, k);
+      if (from < 0) return false;
+      swaps[k] = static_cast<int>(from);
+      double* const lower = front.column(k);
+      for (Index r = k + 1; r < front.size; ++r) lower[r] /= lower[k];
+      for (Index c = k + 1; c < end; ++c) subtractPanel<1>(front, k, k + 1, c);
+    }
+    Index c = end;
+    for (; c + together <= front.size; c += together) subtractPanel<together>(front, first, end, c);
+    for (; c < front.size; ++c) subtractPanel<1>(front, first, end, c);
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -25,10 +88,11 @@ struct MultifrontalLu::Impl {
   struct Front {
     std::vector<int> own, later;  // places in the order of elimination
     int parent = -1;
-    std::vector<int> unknowns;  // own ones first
-    Eigen::PartialPivLU<Eigen::MatrixXd> pivots;
-    Eigen::MatrixXd lower, upper;  // L₂₁, U₁₂
-    Eigen::MatrixXd left;          // for the parent, until that has it
+    std::vector<int> unknowns;               // own ones first
+    std::vector<int> swaps;                  // of own rows, one after the other
+    Eigen::MatrixXd diagonal, lower, upper;  // L₁₁ and U₁₁, L₂₁, U₁₂
+    Eigen::MatrixXd left;                    // what the parent takes, behind what was eliminated
+    Index eliminated() const { return static_cast<Index>(swaps.size()); }
   };
 
   int size() const { return first_.back(); }
@@ -41,6 +105,7 @@ struct MultifrontalLu::Impl {
   void makeFronts();
   int frontThatTakes(const std::vector<int>& children, std::size_t later) const;
   void sortFronts();
+  void addLeft(Front& from, Eigen::MatrixXd& dense);
   bool eliminate(Front& front, const std::vector<int>& children, const std::vector<int>& parts);
   void substitute(Eigen::MatrixXd& x) const;
 
@@ -154,7 +219,7 @@ void MultifrontalLu::Impl::makeFronts() {
 int MultifrontalLu::Impl::frontThatTakes(const std::vector<int>& children, std::size_t later) const {
   for (const int c : children) {
     const Front& front = fronts_[at(c)];
-    if ((later + 1 - front.later.size()) * front.own.size() <= 4) return c;
+    if ((later + 1 - front.later.size()) * front.own.size() <= 8) return c;
   }
   return -1;
 }
@@ -174,17 +239,39 @@ void MultifrontalLu::Impl::sortFronts() {
   fronts_ = std::move(sorted);
 }
 
+/// To the front at hand. Unknowns of both stand in the order of elimination: most of them side by side.
+void MultifrontalLu::Impl::addLeft(Front& from, Eigen::MatrixXd& dense) {
+  struct Run {
+    Index from, to, count;
+  };
+  std::vector<Run> runs;
+  const auto count = static_cast<Index>(from.unknowns.size());
+  const auto place = [&](Index k) -> Index { return local_[at(from.unknowns[static_cast<std::size_t>(k)])]; };
+  for (Index k = from.eliminated(); k < count; ++k)
+    if (runs.empty() || place(k) != runs.back().to + runs.back().count)
+      runs.push_back({k, place(k), 1});
+    else
+      ++runs.back().count;
+  for (Index c = from.eliminated(); c < count; ++c) {
+    const double* const left = from.left.col(c).data();
+    double* const to = dense.col(place(c)).data();
+    for (const Run& run : runs)
+      for (Index k = 0; k < run.count; ++k) to[run.to + k] += left[run.from + k];
+  }
+  from.left.resize(0, 0);
+}
+
 bool MultifrontalLu::Impl::eliminate(Front& front, const std::vector<int>& children, const std::vector<int>& parts) {
-  Eigen::Index own = 0;
+  Index own = 0;
   for (const std::vector<int>* places : {&front.own, &front.later}) {
     for (const int place : *places)
       for (int u = first_[at(order_[at(place)])]; u < first_[at(order_[at(place)]) + 1]; ++u) {
         local_[at(u)] = static_cast<int>(front.unknowns.size());
         front.unknowns.push_back(u);
       }
-    if (places == &front.own) own = static_cast<Eigen::Index>(front.unknowns.size());
+    if (places == &front.own) own = static_cast<Index>(front.unknowns.size());
   }
-  const auto all = static_cast<Eigen::Index>(front.unknowns.size()), rest = all - own;
+  const auto all = static_cast<Index>(front.unknowns.size()), rest = all - own;
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(all, all);
   for (const int p : parts) {
     const auto part = matrixOf(parts_[at(p)]);
@@ -192,41 +279,32 @@ bool MultifrontalLu::Impl::eliminate(Front& front, const std::vector<int>& child
       forUnknowns(parts_[at(p)], [&](int r, int row) { dense(local_[at(row)], local_[at(column)]) += part(r, c); });
     });
   }
-  for (const int child : children) {
-    const Front& from = fronts_[at(child)];
-    const int* const unknown = from.unknowns.data() + from.lower.cols();
-    for (Eigen::Index c = 0; c < from.left.cols(); ++c)
-      for (Eigen::Index r = 0; r < from.left.rows(); ++r)
-        dense(local_[at(unknown[r])], local_[at(unknown[c])]) += from.left(r, c);
-    fronts_[at(child)].left.resize(0, 0);
-  }
-  front.pivots.compute(dense.topLeftCorner(own, own));
-  const auto& factors = front.pivots.matrixLU();
-  if (!factors.allFinite() || (factors.diagonal().array() == 0.0).any()) return false;
-  front.upper = front.pivots.permutationP() * dense.topRightCorner(own, rest);
+  for (const int child : children) addLeft(fronts_[at(child)], dense);
+  front.swaps.resize(static_cast<std::size_t>(own));
+  bool done = false;
+  withVectors([&] { done = eliminateOwn({dense.data(), all, own}, front.swaps.data()); });
+  if (!done) return false;
+  front.diagonal = dense.topLeftCorner(own, own);
   front.lower = dense.bottomLeftCorner(rest, own);
-  if (rest == 0) return true;
-  factors.triangularView<Eigen::UnitLower>().solveInPlace(front.upper);
-  factors.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(front.lower);
-  front.left = dense.bottomRightCorner(rest, rest);
-  front.left.noalias() -= front.lower * front.upper;
+  front.upper = dense.topRightCorner(own, rest);
+  if (rest > 0) front.left = std::move(dense);
   return true;
 }
 
 void MultifrontalLu::Impl::substitute(Eigen::MatrixXd& x) const {
   Eigen::MatrixXd own, later;
-  const auto gather = [&x](Eigen::MatrixXd& to, const int* unknown, Eigen::Index rows) {
+  const auto gather = [&x](Eigen::MatrixXd& to, const int* unknown, Index rows) {
     to.resize(rows, x.cols());
-    for (Eigen::Index r = 0; r < rows; ++r) to.row(r) = x.row(unknown[r]);
+    for (Index r = 0; r < rows; ++r) to.row(r) = x.row(unknown[r]);
   };
   const auto scatter = [&x](const Eigen::MatrixXd& from, const int* unknown) {
-    for (Eigen::Index r = 0; r < from.rows(); ++r) x.row(unknown[r]) = from.row(r);
+    for (Index r = 0; r < from.rows(); ++r) x.row(unknown[r]) = from.row(r);
   };
   for (const Front& front : fronts_) {
     const int* const unknown = front.unknowns.data();
     gather(own, unknown, front.lower.cols());
-    own = front.pivots.permutationP() * own;
-    front.pivots.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(own);
+    for (Index k = 0; k < own.rows(); ++k) own.row(k).swap(own.row(front.swaps[static_cast<std::size_t>(k)]));
+    front.diagonal.triangularView<Eigen::UnitLower>().solveInPlace(own);
     scatter(own, unknown);
     gather(later, unknown + own.rows(), front.lower.rows());
     later.noalias() -= front.lower * own;
@@ -237,7 +315,7 @@ void MultifrontalLu::Impl::substitute(Eigen::MatrixXd& x) const {
     gather(own, unknown, front->lower.cols());
     gather(later, unknown + own.rows(), front->lower.rows());
     own.noalias() -= front->upper * later;
-    front->pivots.matrixLU().triangularView<Eigen::Upper>().solveInPlace(own);
+    front->diagonal.triangularView<Eigen::Upper>().solveInPlace(own);
     scatter(own, unknown);
   }
 }

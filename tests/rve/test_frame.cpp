@@ -66,7 +66,7 @@ TEST(Frame, PeriodicFramesAnswerAsCellsThatRepeat) {
 
 TEST(Frame, HillAndMandelsConditionHoldsInEverySpaceInSlidingStates) {
   std::mt19937 random(4);
-  const Rve start = pressedDiscs(100, 2);
+  const Rve start = pressedDiscs(100, 8);
   for (const Conditions& conditions : kindsOfFrames()) {
     Rve cell = framed(start, conditions);
     // A little compression, so that no space lets the grains fall apart.
