@@ -50,5 +50,6 @@ bool act(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return program::runProgram("dovetail", [&] { return hierarchical::serveFarm() || act(argc, argv); });
+  return program::runProgram(
+      "dovetail", [&] { return hierarchical::serveFarm() || act(argc, argv); }, program::Signals::noted);
 }

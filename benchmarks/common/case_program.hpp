@@ -79,12 +79,13 @@ bool runStudyOf(const std::string& program, const std::string& studies, const Se
 template <class Settings, class FilesOf, class ReadCurves>
 int runCase(const std::string& program, int argc, char** argv, FilesOf filesOf, ReadCurves readCurves,
             const std::string& studies) {
-  return program::runProgram(program, [&] {
+  const auto body = [&] {
     Settings settings;
     if (!parseOptions(argc, argv, settings)) return true;
     if (settings.study.empty()) return runOnce(program, settings, filesOf(settings), readCurves);
     return runStudyOf<Settings>(program, studies, settings);
-  });
+  };
+  return program::runProgram(program, body, program::Signals::noted);
 }
 
 }  // namespace dovetail::benchmark

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <new>
+#include <optional>
 #include <thread>
 
 #include "dovetail/core/error.hpp"
@@ -47,8 +48,9 @@ Ending endingOf(const std::function<bool()>& body) {
 
 }  // namespace
 
-int runProgram(const std::string& name, const std::function<bool()>& body) {
-  const io::InterruptionGuard guard;
+int runProgram(const std::string& name, const std::function<bool()>& body, Signals signals) {
+  std::optional<io::InterruptionGuard> guard;
+  if (signals == Signals::noted) guard.emplace();
   const Ending ending = endingOf(body);
   if (!ending.text.empty()) std::cerr << name << ": " << ending.text << std::endl;
   if (ending.code != 0 && team().size() > 1) leaveTeam(name, ending);
