@@ -34,7 +34,7 @@ expect_same "$work/three"
 ranks 2 run "$scene" --out "$work/two" > "$work/again.txt" 2>&1 && fail "a run was overwritten"
 [ "$(grep -c '^dovetail: there is a run in this folder' "$work/again.txt")" = 1 ] || { cat "$work/again.txt"; fail "no refusal"; }
 
-ranks 3 run "$scene" --out "$work/short" --max-wall-seconds 1 > "$work/short.txt" 2>&1
+ranks 3 run "$scene" --out "$work/short" --max-wall-seconds 0.3 > "$work/short.txt" 2>&1
 status=$?
 [ $status = 142 ] || { cat "$work/short.txt"; fail "its time was up, and the exit code is $status"; }
 [ "$(grep -c 'its time was up at t = ' "$work/short.txt")" = 1 ] || { cat "$work/short.txt"; fail "no stop is told"; }
