@@ -166,6 +166,7 @@ bool MultifrontalLu::Impl::factor() {
 
 void MultifrontalLu::Impl::chooseOrder() {
   const int nodes = static_cast<int>(first_.size()) - 1;
+  if (nodes == 0) return;
   std::vector<Eigen::Triplet<double>> pairs;
   for (const Part& part : parts_) {
     const auto [a, b] = part.node;
@@ -176,7 +177,7 @@ void MultifrontalLu::Impl::chooseOrder() {
   Eigen::SparseMatrix<double> graph(nodes, nodes);
   graph.setFromTriplets(pairs.begin(), pairs.end());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> found;
-  if (nodes > 0) Eigen::AMDOrdering<int>()(graph, found);
+  Eigen::AMDOrdering<int>()(graph, found);
   order_.assign(found.indices().data(), found.indices().data() + nodes);
   if (last_ >= 0) {
     order_.erase(std::find(order_.begin(), order_.end(), last_));
