@@ -230,6 +230,7 @@ private:
   NewtonResult settle(int iterationsBefore) {
     arrive(tEnd_);
     path_.aim(tEnd_);
+    equilibrium_.beginStep();
     NewtonResult result = detail::newton(equilibrium_, detail::policyOf(options_.newton));
     result.iterations += iterationsBefore;
     if (result.failure.empty() && path_.strays())

@@ -38,7 +38,8 @@ void requireLater(double tEnd, const Model& model, const char* where) {
 NewtonPolicy policyOf(const NewtonOptions& options) {
   const bool keep = options.reuseContraction > 0.0;
   return {options.maxIterations, options.lineSearch ? LineSearch::always : LineSearch::never,
-          keep ? std::numeric_limits<int>::max() : 0, options.reuseContraction};
+          keep ? std::numeric_limits<int>::max() : 0, options.reuseContraction,
+          static_cast<std::size_t>(std::max(options.mixing, 1))};
 }
 
 Balance::Balance(Model& model, double relative, double absolute)
@@ -100,7 +101,7 @@ bool Equilibrium::factor(bool) {
   const auto middle = Clock::now();
   const bool symmetric = std::ranges::all_of(model().terms, [](const auto& term) { return term->isSymmetric(); });
   const bool done = solver_.factor(K_, symmetric);
-  if (mixing_) mixing_->clear();
+  if (mixes_) mixing_->clear();
   solverSeconds_ += since(middle);
   return done;
 }
@@ -114,13 +115,13 @@ void Equilibrium::solve(std::span<const double> r, std::span<double> x, double l
 bool Equilibrium::direct(double loosest) {
   start_ = model().nodes.u;
   solve(residual(), increment_, loosest);
-  if (mixing_) mixing_->better(increment_);
+  if (mixes_) mixing_->better(increment_);
   return true;
 }
 
 void Equilibrium::moveTo(double fraction) {
   for (std::size_t i = 0; i < part_.size(); ++i) part_[i] = fraction * increment_[i];
-  if (mixing_) mixing_->moved(part_);
+  if (mixes_) mixing_->moved(part_);
   model().nodes.u = start_;
   dofs().addIncrement(part_, model().nodes.u);
 }

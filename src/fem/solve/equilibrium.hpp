@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dovetail/fem/solve/statics.hpp"
@@ -70,6 +71,7 @@ public:
   bool factor(bool exact = true) override;
   bool direct(double loosest) override;
   double slope() const override { return innerProduct(residual(), increment_); }
+  bool endMixing() override { return std::exchange(mixes_, false); }
   void moveTo(double fraction) override;
 
   /// Moves prescribed components to the time aimed at and the free ones with them, by the tangent of the old state.
@@ -82,6 +84,7 @@ public:
   /// A new step begins.
   void beginStep() {
     if (mixing_) mixing_->clear();
+    mixes_ = mixing_.has_value();
   }
   int negativePivots() const override { return solver_.negativePivots(); }
   void describe(StaticReport& report) const override;
@@ -92,6 +95,7 @@ private:
   std::vector<Vec3> start_;
   std::vector<double> increment_, part_;
   std::optional<Mixing> mixing_;
+  bool mixes_ = false;
   double solverSeconds_ = 0.0;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <vector>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
@@ -90,11 +91,18 @@ double forcingTerm(double norm, double before, double tolerance) {
   return std::min(std::max(0.9 * shrunk * shrunk, 0.5 * tolerance / norm), most);
 }
 
+/// Whether the last iterations with the same factors shrank the residual to the fraction wanted.
+bool shrinksEnough(double norm, const std::vector<double>& earlier, const NewtonPolicy& policy) {
+  const std::size_t over = policy.keepOver;
+  return earlier.size() < over || norm <= policy.keepContraction * earlier[earlier.size() - over];
+}
+
 }  // namespace
 
 NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
   NewtonResult result;
   double norm = problem.evaluate(), before = 0.0;
+  std::vector<double> judged;  // residuals that the factors are judged by, the newest last
   bool hard = false;
   const auto stop = [&](const std::string& failure) {
     result.failure = failure;
@@ -108,20 +116,24 @@ NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
     if (result.iterations == policy.maxIterations)
       return stop("Newton's method does not converge: " + formatNumber(norm) + " N out of balance after " +
                   std::to_string(result.iterations) + " iterations");
-    const bool keep = !hard && problem.factored() && sinceFactor < policy.keepIterations &&
-                      (sinceFactor == 0 || norm <= policy.keepContraction * before);
+    const bool keep =
+        !hard && problem.factored() && sinceFactor < policy.keepIterations && shrinksEnough(norm, judged, policy);
     if (!keep) {
       if (!problem.factor(hard)) return stop("the tangent is singular or not finite");
       sinceFactor = 0;
+      judged.clear();
     }
     ++sinceFactor;
+    judged.push_back(norm);
     const double loosest = forcingTerm(norm, before, result.tolerance);
     before = norm;
     if (!problem.direct(loosest)) return stop("the arc does not intersect the path");
     const double slope = problem.slope();
     problem.moveTo(1.0);
     norm = problem.evaluate();
-    hard = hard || !(norm <= before);
+    const bool wrongWay = !(norm <= before);
+    hard = hard || (wrongWay && policy.keepOver == 1);
+    if (wrongWay && problem.endMixing()) judged.clear();
     const bool searches = std::isfinite(norm) ? policy.lineSearch == LineSearch::always && result.iterations > 0
                                               : policy.lineSearch != LineSearch::never;
     if (searches) norm = search(problem, norm, slope);

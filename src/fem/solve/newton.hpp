@@ -30,6 +30,8 @@ public:
   virtual bool direct(double loosest) = 0;
   /// residual · increment at the present state.
   virtual double slope() const = 0;
+  /// Increments are what the factors say from now on. @return whether they were mixed with earlier ones until now
+  virtual bool endMixing() { return false; }
   /// To the fraction of the increment, from the state that direct() met.
   virtual void moveTo(double fraction) = 0;
 };
@@ -41,9 +43,10 @@ enum class LineSearch { never, afterBreakdown, always };
 struct NewtonPolicy {
   int maxIterations;
   LineSearch lineSearch = LineSearch::always;
-  /// Factors are kept for so many iterations, while each shrinks the residual below this fraction.
+  /// Factors are kept for so many iterations, while `keepOver` of them together shrink the residual to this fraction.
   int keepIterations = 0;
   double keepContraction = 0.0;
+  std::size_t keepOver = 1;
 };
 
 struct NewtonResult {
@@ -53,8 +56,8 @@ struct NewtonResult {
 };
 
 /// Full steps, shortened where they overshoot (Matthies & Strang 1979; not the first one, which finds its way back from
-/// large strains of a mere prediction better than a short one). Once an iteration has gone the wrong way, kept factors
-/// are not trusted again.
+/// large strains of a mere prediction better than a short one). Once an iteration has gone the wrong way, increments
+/// are not mixed any more, and kept factors are not trusted again if each iteration judges them.
 NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy);
 
 /// Solves a step and lets the terms augment their multipliers and judge the state; whatever they or the solvers throw

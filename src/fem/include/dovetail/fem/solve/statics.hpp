@@ -23,8 +23,10 @@ struct NewtonOptions {
   /// Keeps the factors while each iteration shrinks the force out of balance below this fraction (modified Newton);
   /// 0 factorises in every iteration.
   double reuseContraction = 0.0;
-  /// While factors are kept: of how many earlier increments with the same factors each new one is bettered, by the
-  /// least squares of Anderson (1965; type II); 0 = none. For solveStatics; needs reuseContraction > 0.
+  /// For tangents that are dear and not the derivative, as those of cells: of how many earlier increments with the same
+  /// factors each new one is bettered, by the least squares of Anderson (1965; type II), until the force out of balance
+  /// grows in the step. Factors are kept while so many iterations together, not each, shrink it below reuseContraction,
+  /// which must be above 0. 0 = none. For solveStatics.
   int mixing = 0;
   linalg::LinearOptions linear{};
 };
