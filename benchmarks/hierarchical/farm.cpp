@@ -78,6 +78,7 @@ Recording record(std::array<int, 2> elements, int steps, int discs = 400) {
        .firstStep = 1.0,
        .largestStep = 1.0,
        .smallestStep = 0.1,
+       .iterationTarget = 1000,  // steps stay as long
        .motionIterations = 2000});
   return {field->steps, wallSeconds() - start, report.iterations, body.axial()};
 }

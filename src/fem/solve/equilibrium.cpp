@@ -116,6 +116,7 @@ bool Equilibrium::direct(double loosest) {
   start_ = model().nodes.u;
   solve(residual(), increment_, loosest);
   if (mixes_) mixing_->better(increment_);
+  ++solves_;
   return true;
 }
 
@@ -133,7 +134,8 @@ bool Equilibrium::predict() {
   for (std::size_t n = 0; n < moved.size(); ++n) motion[n] = moved[n] - model().nodes.u[n];
   if (normOf(motion) == 0.0) return true;
   evaluate();
-  if (!factor()) return false;
+  const bool lasts = mixing_ && solver_.factored() && solvesBefore_ <= mixing_->depth();
+  if (!lasts && !factor()) return false;
   K_.multiply(motion, push);
   dofs().reduce(push, part_);
   for (std::size_t i = 0; i < part_.size(); ++i) part_[i] = residual()[i] - part_[i];

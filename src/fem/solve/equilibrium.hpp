@@ -85,6 +85,7 @@ public:
   void beginStep() {
     if (mixing_) mixing_->clear();
     mixes_ = mixing_.has_value();
+    solvesBefore_ = std::exchange(solves_, 0);
   }
   int negativePivots() const override { return solver_.negativePivots(); }
   void describe(StaticReport& report) const override;
@@ -96,6 +97,7 @@ private:
   std::vector<double> increment_, part_;
   std::optional<Mixing> mixing_;
   bool mixes_ = false;
+  std::size_t solves_ = 0, solvesBefore_ = 0;  // increments in this step and the one before
   double solverSeconds_ = 0.0;
 };
 

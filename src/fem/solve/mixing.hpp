@@ -13,6 +13,7 @@ class Mixing {
 public:
   explicit Mixing(int depth) : depth_(static_cast<std::size_t>(depth)) {}
 
+  std::size_t depth() const { return depth_; }
   void clear();
   /// Betters the increment found at the present state.
   void better(std::span<double> increment);

@@ -256,6 +256,24 @@ TEST(Statics, MixingConvergesFasterToTheSameWithTheSameFactors) {
   EXPECT_THROW(solveStatics(b.model, 1.0, {.newton = {.reuseContraction = 0.5, .mixing = -1}}), InputError);
 }
 
+TEST(Statics, MixingKeepsFactorsFromStepToStepWhileTheyDo) {
+  const auto factorisations = [](double compression) {
+    Bar b = bar({ElementShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+    b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
+    b.model.constraints.prescribe(nodesAt(b.mesh, 2, 1.0), 2, [=](double t) { return -compression * t; });
+    const StaticReport report =
+        solveStatics(b.model, 1.0,
+                     {.newton = {.relativeTolerance = 1e-6, .lineSearch = false, .reuseContraction = 0.5, .mixing = 5},
+                      .firstStep = 0.125,
+                      .largestStep = 0.125,
+                      .iterationTarget = 1000});
+    EXPECT_EQ(report.steps.size(), 8u);
+    return report.factorisations;
+  };
+  EXPECT_EQ(factorisations(0.01), 1);
+  EXPECT_GT(factorisations(0.6), 1);
+}
+
 TEST(Statics, AFailureLeavesTheLastEquilibriumAndSaysWhy) {
   Bar b = bar({ElementShape::hex8, Formulation::standard}, {1, 1, 1}, {1.0, 1.0, 1.0}, 2e6, 1e6);
   b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));

@@ -26,7 +26,7 @@ struct NewtonOptions {
   /// For tangents that are dear and not the derivative, as those of cells: of how many earlier increments with the same
   /// factors each new one is bettered, by the least squares of Anderson (1965; type II), until the force out of balance
   /// grows in the step. Factors are kept while so many iterations together, not each, shrink it below reuseContraction,
-  /// which must be above 0. 0 = none. For solveStatics.
+  /// which must be above 0, and from step to step while a step takes no more. 0 = none. For solveStatics.
   int mixing = 0;
   linalg::LinearOptions linear{};
 };
