@@ -103,7 +103,7 @@ NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
   NewtonResult result;
   double norm = problem.evaluate(), before = 0.0;
   std::vector<double> judged;  // residuals that the factors are judged by, the newest last
-  bool hard = false;
+  bool distrusted = false;     // the factors that are there
   const auto stop = [&](const std::string& failure) {
     result.failure = failure;
     return result;
@@ -117,11 +117,12 @@ NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
       return stop("Newton's method does not converge: " + formatNumber(norm) + " N out of balance after " +
                   std::to_string(result.iterations) + " iterations");
     const bool keep =
-        !hard && problem.factored() && sinceFactor < policy.keepIterations && shrinksEnough(norm, judged, policy);
+        !distrusted && problem.factored() && sinceFactor < policy.keepIterations && shrinksEnough(norm, judged, policy);
     if (!keep) {
-      if (!problem.factor(hard)) return stop("the tangent is singular or not finite");
+      if (!problem.factor(distrusted)) return stop("the tangent is singular or not finite");
       sinceFactor = 0;
       judged.clear();
+      distrusted = distrusted && policy.keepOver == 1;
     }
     ++sinceFactor;
     judged.push_back(norm);
@@ -131,9 +132,12 @@ NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy) {
     const double slope = problem.slope();
     problem.moveTo(1.0);
     norm = problem.evaluate();
-    const bool wrongWay = !(norm <= before);
-    hard = hard || (wrongWay && policy.keepOver == 1);
-    if (wrongWay && problem.endMixing()) judged.clear();
+    if (!(norm <= before)) {
+      if (problem.endMixing())
+        judged.clear();
+      else
+        distrusted = true;
+    }
     const bool searches = std::isfinite(norm) ? policy.lineSearch == LineSearch::always && result.iterations > 0
                                               : policy.lineSearch != LineSearch::never;
     if (searches) norm = search(problem, norm, slope);

@@ -56,8 +56,8 @@ struct NewtonResult {
 };
 
 /// Full steps, shortened where they overshoot (Matthies & Strang 1979; not the first one, which finds its way back from
-/// large strains of a mere prediction better than a short one). Once an iteration has gone the wrong way, increments
-/// are not mixed any more, and kept factors are not trusted again if each iteration judges them.
+/// large strains of a mere prediction better than a short one). An iteration that goes the wrong way ends the mixing of
+/// increments; if they are not mixed, the factors are made anew, and never kept again where each iteration judges them.
 NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy);
 
 /// Solves a step and lets the terms augment their multipliers and judge the state; whatever they or the solvers throw

@@ -62,11 +62,18 @@ TEST(Newton, MixedIncrementsAreJudgedTogether) {
   EXPECT_TRUE(problem.endedAt.empty());
 }
 
-TEST(Newton, TheWrongWayEndsMixingAndStagnationTheFactors) {
-  Written problem({100.0, 60.0, 70.0, 69.0, 71.0, 68.0, 67.0, 66.0, 20.0, 5.0, 0.5}, true);
-  EXPECT_EQ(newton(problem, keeping(0.5, 5)).iterations, 10);
+TEST(Newton, TheWrongWayEndsMixingAndTheNextOneTheFactors) {
+  Written problem({100.0, 60.0, 70.0, 50.0, 51.0, 45.0, 40.0, 35.0, 20.0, 0.5}, true);
+  EXPECT_EQ(newton(problem, keeping(0.5, 5)).iterations, 9);
   EXPECT_EQ(problem.endedAt, Iterations{2});
-  EXPECT_EQ(problem.factorsAt, Iterations{7});  // five after the mixing has ended
+  EXPECT_EQ(problem.factorsAt, Iterations{4});
+}
+
+TEST(Newton, StagnationEndsFactorsAlsoWhereIncrementsAreMixed) {
+  Written problem({100.0, 99.0, 98.0, 97.0, 96.0, 95.0, 20.0, 5.0, 0.5}, true);
+  EXPECT_EQ(newton(problem, keeping(0.5, 5)).iterations, 8);
+  EXPECT_TRUE(problem.endedAt.empty());
+  EXPECT_EQ(problem.factorsAt, Iterations{5});
 }
 
 }  // namespace

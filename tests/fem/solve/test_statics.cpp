@@ -274,6 +274,29 @@ TEST(Statics, MixingKeepsFactorsFromStepToStepWhileTheyDo) {
   EXPECT_GT(factorisations(0.6), 1);
 }
 
+TEST(Statics, KeptFactorsGiveWayWhereContactCloses) {
+  const auto press = [](const NewtonOptions& newton) {
+    Bar b = bar({ElementShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
+    const std::vector<int> top = nodesAt(b.mesh, 2, 1.0);
+    b.model.constraints.prescribe(top, 0, [](double) { return 0.0; });
+    b.model.constraints.prescribe(top, 1, [](double) { return 0.0; });
+    b.model.constraints.prescribe(top, 2, [](double t) { return -0.2 * t; });
+    ContactOptions options;
+    options.penalty = 1e9;  // far stiffer than the block
+    b.model.add(makeContactPlane(b.mesh, faceSet(b.mesh, "z-"), {{0, 0, -0.1}, {0, 0, 1}, {}}, options));
+    const StaticReport report = solveStatics(
+        b.model, 1.0, {.newton = newton, .firstStep = 0.125, .largestStep = 0.125, .iterationTarget = 1000});
+    for (const StaticStep& step : report.steps) EXPECT_LE(step.residual, step.tolerance);
+    return std::pair(report.cuts, b.model.nodes.u);
+  };
+  const auto [none, u] = press({});
+  const auto [some, v] = press({.lineSearch = false, .reuseContraction = 0.5});
+  const auto [cuts, w] = press({.lineSearch = false, .reuseContraction = 0.5, .mixing = 5});
+  EXPECT_EQ(none, 0);
+  EXPECT_LE(cuts, some);
+  EXPECT_LT(largestDifference(u, w), 1e-8);
+}
+
 TEST(Statics, AFailureLeavesTheLastEquilibriumAndSaysWhy) {
   Bar b = bar({ElementShape::hex8, Formulation::standard}, {1, 1, 1}, {1.0, 1.0, 1.0}, 2e6, 1e6);
   b.model.constraints.hold(nodesAt(b.mesh, 2, 0.0));
