@@ -31,7 +31,7 @@ public:
   double loadFactor = 0.0;    ///< of the last static stage
   struct StaticWork {
     double loads = 0.0, supports = 0.0, dissipated = 0.0, held = 0.0;  ///< J, in load steps
-    int negativePivots = -1;                                           ///< of the tangent at the end of the last one
+    int negativePivots = -1;                                           ///< of the tangent factorised last
   };
   StaticWork statics;
   bool stands = false;  ///< a load step has come last: whatever its supports do next, nothing accelerates

@@ -30,7 +30,7 @@ public:
   virtual bool direct(double loosest) = 0;
   /// residual · increment at the present state.
   virtual double slope() const = 0;
-  /// Increments are what the factors say from now on. @return whether they were mixed with earlier ones until now
+  /// From now on increments are those of the factors alone. @return whether they were mixed with earlier ones until now
   virtual bool endMixing() { return false; }
   /// To the fraction of the increment, from the state that direct() met.
   virtual void moveTo(double fraction) = 0;
@@ -56,8 +56,9 @@ struct NewtonResult {
 };
 
 /// Full steps, shortened where they overshoot (Matthies & Strang 1979; not the first one, which finds its way back from
-/// large strains of a mere prediction better than a short one). An iteration that goes the wrong way ends the mixing of
-/// increments; if they are not mixed, the factors are made anew, and never kept again where each iteration judges them.
+/// large strains of a mere prediction better than a short one). An iteration after which the residual is larger ends
+/// the mixing of increments; if they are not mixed, the factors are made anew, and never kept again where each
+/// iteration judges them (keepOver = 1).
 NewtonResult newton(NewtonProblem& problem, const NewtonPolicy& policy);
 
 /// Solves a step and lets the terms augment their multipliers and judge the state; whatever they or the solvers throw

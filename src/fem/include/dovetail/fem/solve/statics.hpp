@@ -25,8 +25,10 @@ struct NewtonOptions {
   double reuseContraction = 0.0;
   /// For tangents that are dear and not the derivative, as those of cells: of how many earlier increments with the same
   /// factors each new one is bettered, by the least squares of Anderson (1965; type II), until the force out of balance
-  /// grows in the step. Factors are kept while so many iterations together, not each, shrink it below reuseContraction,
-  /// which must be above 0, and from step to step while a step takes no more. 0 = none. For solveStatics.
+  /// grows in the step; 0 = none. Factors are kept while so many iterations together, not each, shrink it below
+  /// reuseContraction, which must be above 0, and from step to step while a step takes no more iterations than that: a
+  /// call that goes on from a saved state makes its own, and has the same digits only if that state ended a call. For
+  /// solveStatics.
   int mixing = 0;
   linalg::LinearOptions linear{};
 };
@@ -49,7 +51,7 @@ struct StaticStep {
   double t;               ///< s
   int iterations;         ///< linear solves, of a motion evaluations of the forces
   double residual;        ///< force out of balance, N
-  int negativePivots;     ///< of the tangent: more than 0 if the equilibrium is not stable, −1 if not known
+  int negativePivots;     ///< of the tangent factorised last: more than 0 if unstable there, −1 if not known
   double tolerance = 0;   ///< of the residual, N
   bool byMotion = false;  ///< Newton's method had failed, and the nodes moved there
 };
