@@ -21,22 +21,18 @@ struct Stiffening {
   struct Prepared {
     double stiffness, perSquare, dampingPerRootMass;
 
-    double elastic(double overlap) const { return stiffness * overlap * (1.0 + perSquare * overlap * overlap); }
-
     [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
       const double squared = perSquare * contact.overlap * contact.overlap;
       const double spring = stiffness * contact.overlap * (1.0 + squared);
-      const double damping = dampingPerRootMass * contact.rootMass, dashpot = damping * contact.separating;
-      const bool touched = contact.overlapBefore > 0.0;
-      const BookedDashpot booked = bookedDashpot(contact, dashpot, spring, touched ? dashpot : 0.0,
-                                                 elastic(touched ? contact.overlapBefore : 0.0));
-      return {.force = spring > dashpot ? spring - dashpot : 0.0,
-              .stiffness = stiffness * (1.0 + 3.0 * squared),
+      const double slope = stiffness * (1.0 + 3.0 * squared), damping = dampingPerRootMass * contact.rootMass;
+      const double seen = seenBy(contact, slope), engagement = engagementOf(contact, false);
+      const double dashpot = engagement * damping * seen, force = spring > dashpot ? spring - dashpot : 0.0;
+      return {.force = force,
+              .stiffness = slope,
               .damping = damping,
               .energy = 0.5 * stiffness * contact.overlap * contact.overlap * (1.0 + 0.5 * squared),
-              .dampingFraction = touched ? 1.0 : 0.75,
-              .dashpotPower = booked.power,
-              .dashpotAfter = booked.after};
+              .engagement = engagement,
+              .dashpotPower = (spring - force) * seen};
     }
     double reach() const { return 0.0; }
     bool usesMass() const { return dampingPerRootMass > 0.0; }

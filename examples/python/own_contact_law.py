@@ -34,10 +34,11 @@ def slope(c, k, h):
 def rough(c, k=2e3, h=1e-4, zeta=0.0):
     squared = (c.overlap / h) ** 2
     spring = k * c.overlap * (1 + squared)
-    force = np.maximum(spring - dashpot(c, k, zeta) * c.separating, 0)
+    seen = c.seen(slope(c, k, h))
+    force = np.maximum(spring - c.engagement * dashpot(c, k, zeta) * seen, 0)
     return {"force": force,
             "elastic_energy": 0.5 * k * c.overlap ** 2 * (1 + squared / 2),
-            "dissipated_power": (spring - force) * c.separating}
+            "dissipated_power": (spring - force) * seen}
 
 
 # %% [markdown]

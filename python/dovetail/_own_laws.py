@@ -92,7 +92,8 @@ class ContactLaw(Law):
 
     def _make(self) -> _core._Laws:
         function, parameters = self._function, self.parameters
-        return _core._called_laws(self.name, *self._traits, lambda contacts: function(contacts, **parameters),
+        damps = not (isinstance(self._slope[1], (int, float)) and self._slope[1] == 0)
+        return _core._called_laws(self.name, *self._traits, damps, lambda contacts: function(contacts, **parameters),
                                   self._slopes, parameters)
 
 
@@ -127,7 +128,9 @@ def contact_law(stiffness: _Slope, damping: _Value = 0.0, memory: int = 0, tange
 
     stiffness   N/m, which limits of the step follow from: a number, a parameter's name, a function as the law itself,
                 or two of these, normal and tangential. It is asked at rest, with memories of 0.
-    damping     N s/m, of the dashpot along the normal, in the same ways
+    damping     N s/m, of the dashpot along the normal, in the same ways. With it contacts remember how they moved, and
+                `separating`, `slip` and `spin` are those of the instant. A dashpot acts on `c.seen(slope)` with the
+                factor `c.engagement`; springs are stretched by `c.slipped` and `c.turned`
     memory      numbers that each contact remembers: `c.memory`, (N, memory)
     tangential  first numbers of the tangential vectors among them, which turn with their contacts
     torques     whether forces turn grains; without, they do not spin

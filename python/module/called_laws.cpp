@@ -38,6 +38,7 @@ struct Tape {
 };
 struct TapedLaw {
   static constexpr int memory = 0;
+  static constexpr int recalled(dem::Recall) { return 0; }
   struct Touch {
     double range;
     double reach() const { return range; }
@@ -47,6 +48,7 @@ struct TapedLaw {
     Tape* tape;
     double reach() const { return normal.range; }
     bool usesMass() const { return true; }
+    dem::Recall recall() const { return dem::Recall::nothing; }
     dem::ContactSlopes slopes(const dem::Contact& contact, double*) const {
       if (!tape->slopes.empty()) return tape->slopes[tape->next++];
       tape->contacts.push_back(contact);
@@ -66,6 +68,8 @@ void fill(const Tape& tape, const LawTraits& law, Batch& batch) {
     put(Batch::overlap, contact.overlap);
     put(Batch::overlapBefore, contact.overlap);
     put(Batch::mass, contact.effectiveMass);
+    put(Batch::engagement, 1.0);
+    put(Batch::engagementUntilEnd, 1.0);
     put(Batch::radius, contact.effectiveRadius);
     for (int d = 0; d < 3; ++d) put(Batch::normal + static_cast<std::size_t>(d), contact.normal[d]);
   }
@@ -112,7 +116,7 @@ dem::ContactWork CalledLaws::wall(dem::Particles& particles, dem::PrimitiveWall&
   const std::shared_ptr<Batch> batch = room();
   contacts.force.resize(contacts.size());
   if (law_.rotates) contacts.couple.resize(contacts.size());
-  const double ended = powerOf(law_, dem::detail::carryMemory(particles, contacts, law_.kept()), dt);
+  const double ended = powerOf(law_, dem::detail::carryMemory(particles, contacts, law_.numbers()), dt);
   const bool spins = law_.rotates && particles.rotates();
   dem::ContactWork work = answerWall(law_, particles, contacts, contacts.memory, {.material = wall.material}, dt,
                                      booking, dem::detail::AgainstPrimitive{particles, wall, spins}, *batch,
@@ -126,7 +130,7 @@ dem::ContactWork CalledLaws::wall(dem::Particles& particles, const dem::Triangul
                                   dem::WallContacts& contacts, double dt, dem::Booking booking) const {
   dem::detail::requireStep(dt);
   const std::shared_ptr<Batch> batch = room();
-  const double ended = powerOf(law_, dem::detail::carrySprings(particles, contacts, law_.kept()), dt);
+  const double ended = powerOf(law_, dem::detail::carrySprings(particles, contacts, law_.numbers()), dt);
   if (law_.rotates) contacts.couple.assign(contacts.size(), Vec3{});
   const bool spins = law_.rotates && particles.rotates();
   dem::ContactWork work = answerWall(law_, particles, contacts, contacts.springs.next, {wall.material, wall.mass}, dt,
@@ -159,7 +163,8 @@ void CalledLaws::demandOf(const AddDemand& add, dem::ContactDemand& demand) cons
           throw InputError(std::string(a == 2 ? "the damping" : "the stiffness") + " of a contact is not finite and " +
                                (a == 0 ? "> 0" : ">= 0"),
                            name_, "limits of the step follow from it: give N/m");
-      tape.slopes.push_back({{of(0), of(2)}, {of(1), 0.0}, {}});
+      const double twice = law_.damps ? 2.0 : 1.0;  // as of the library's laws: ContactLaw's slopes
+      tape.slopes.push_back({{of(0), twice * of(2)}, {of(1), 0.0}, {}});
     }
   }
   add(demand, laws);
@@ -189,11 +194,11 @@ void CalledLaws::addDemand(dem::ContactDemand& demand, const dem::Particles& par
 
 dem::ContactSample CalledLaws::sample(const dem::Particles& particles, const dem::PairList& list) const {
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
-  dem::detail::requireMemory(list, law_.kept());
+  dem::detail::requireMemory(list, law_.numbers());
   dem::ContactSample all;
   if (list.size() == 0) return all;
   dem::detail::PairsApart apart(list.size());
-  apart.take(particles, list, 0, law_.kept());
+  apart.take(particles, list, 0, law_.numbers());
   for (std::size_t k = 0; k < list.size(); ++k)
     for (std::size_t side = 0; side < 2; ++side)
       apart.particles.id[2 * k + side] = particles.id[static_cast<std::size_t>(list.pairs()[k][side])];

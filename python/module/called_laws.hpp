@@ -24,6 +24,7 @@ struct ContactsView {
   py::array column(const py::object& self, std::size_t c) const;                         ///< (N)
   py::array matrix(const py::object& self, std::size_t first, std::size_t width) const;  ///< (N, width)
   py::array_t<std::int64_t> ids(const std::vector<int>& numbers) const;
+  py::array_t<double> seen(const Values& slope) const;  ///< seenBy of all; slope (N) or one
   /// @throws InputError unless the shape is (N, numbers that are remembered)
   void remember(const Values& values) const;
 };
@@ -52,7 +53,8 @@ public:
   dem::ContactSample sample(const dem::Particles& particles, const dem::PairList& list) const override;
   double held(const dem::EndedPairs& pairs) const override { return energyOf(law_, pairs).lostPower(); }
 
-  int memory() const override { return law_.kept(); }
+  int memory() const override { return law_.numbers(); }
+  int springs() const override { return law_.kept(); }
   bool rotates() const override { return law_.rotates; }
   double reach() const override { return law_.reach; }
   int materials() const override { return 1; }

@@ -13,6 +13,7 @@ using dem::detail::blockSize, dem::detail::ContactBlock, dem::detail::PairCursor
 unsigned LawTraits::turns() const {
   unsigned bits = 0;
   for (const int c : vectors) bits |= 0b111u << c;
+  if (damps) bits |= 0b111111u << kept();
   return bits;
 }
 
@@ -29,15 +30,38 @@ namespace {
 
 bool isFelt(const LawTraits& law, double overlap, double scale) { return overlap > -law.reach && scale > 0.0; }
 
-/// Appends what a law is given of a contact, in the order of the columns.
-void appendRow(const LawTraits& law, const ContactBlock& block, std::size_t l, double rootMass, double dt,
+/// For velocitiesNow: velocity and spin are remembered.
+struct Moving {
+  static constexpr bool needsSpin = true;
+};
+
+/// Appends what a law is given of a contact, in the order of the columns; what it remembers of velocities moves on.
+template <bool wall>
+void appendRow(const LawTraits& law, ContactBlock& block, std::size_t l, double rootMass, double dt,
                std::vector<double>& rows) {
   const Vec3 normal = block.normal.at(l), velocity = block.velocity.at(l);
-  const double separating = dot(normal, velocity);
-  const Vec3 slip = velocity - separating * normal, spin = law.rotates ? block.spinDifference.at(l) : Vec3{};
-  rows.insert(rows.end(),
-              {block.overlap[l], block.overlap[l] + separating * dt, separating, rootMass * rootMass,
-               block.effectiveRadius[l], normal.x, normal.y, normal.z, slip.x, slip.y, slip.z, spin.x, spin.y, spin.z});
+  const Vec3 spin = law.rotates ? block.spinDifference.at(l) : Vec3{};
+  const double overlap = block.overlap[l], separating = dot(normal, velocity), before = overlap + separating * dt;
+  const bool first = overlap > 0.0 && before <= 0.0;
+  dem::detail::Velocities now{separating, velocity - separating * normal, spin};
+  if (law.damps) {
+    constexpr dem::detail::BlockOptions options{true, wall, true, true, dem::Recall::motion};
+    const bool remembers = dt > dem::detail::timeless;
+    const dem::detail::Meeting meeting{normal, velocity, overlap, wall ? Vec3{} : block.drift.at(l)};
+    now = dem::detail::velocitiesNow<Moving, options>(block.memory.data() + law.kept(), l, meeting, spin, first, true,
+                                                      remembers ? 0.5 : 0.0, remembers);
+  }
+  const double left = overlap + law.reach, goes = now.separating * dt;
+  const bool last = !first && goes > left;
+  const double fraction = first ? overlap / (overlap - before) : last ? left / goes : 1.0;
+  const double moving = first ? fraction * dt : dt;
+  const Vec3 slipped = moving * (velocity - separating * normal), turned = moving * spin;
+  const double engagement = 0.5 + fraction;
+  rows.insert(rows.end(), {overlap, before, now.separating, rootMass * rootMass, block.effectiveRadius[l]});
+  for (const Vec3& vector : {normal, now.slip, now.spin}) rows.insert(rows.end(), {vector.x, vector.y, vector.z});
+  rows.push_back(moving * separating);
+  for (const Vec3& vector : {slipped, turned}) rows.insert(rows.end(), {vector.x, vector.y, vector.z});
+  rows.insert(rows.end(), {first ? engagement : 1.0, first || last ? engagement : 1.0});
   for (int c = 0; c < law.kept(); ++c) rows.push_back(block.memory[static_cast<std::size_t>(c)][l]);
 }
 
@@ -71,13 +95,16 @@ struct Sweep {
   double scaleOf(const ContactBlock& block, std::size_t l) const { return rows.varied ? block.scale[l] : 1.0; }
 
   void meet(ContactBlock& block, std::size_t n) const {
-    withVectors([&] { law.rotates ? dem::detail::meet<true>(block, n) : dem::detail::meet<false>(block, n); });
+    withVectors([&] {
+      law.rotates ? dem::detail::meet<true, dem::Recall::motion>(block, n, dt)
+                  : dem::detail::meet<false, dem::Recall::motion>(block, n, dt);
+    });
   }
 
   /// A pair that does not touch forgets.
   double forget(ContactBlock& block, std::size_t l, double scale) const {
     const double lost = scale * block.memory[static_cast<std::size_t>(law.memory) + 1][l];
-    for (int c = 0; c < law.kept(); ++c) block.memory[static_cast<std::size_t>(c)][l] = 0.0;
+    for (int c = 0; c < law.numbers(); ++c) block.memory[static_cast<std::size_t>(c)][l] = 0.0;
     return lost / dt;
   }
 
@@ -97,7 +124,8 @@ struct Sweep {
           part.lost += forget(block, l, scale);
           continue;
         }
-        appendRow(law, block, l, rows.varied ? block.rootMass[l] / std::sqrt(scale) : block.rootMass[l], dt, part.rows);
+        appendRow<false>(law, block, l, rows.varied ? block.rootMass[l] / std::sqrt(scale) : block.rootMass[l], dt,
+                         part.rows);
         part.first.push_back(list.pairs[cursor.pair + l][0]);
         part.second.push_back(list.pairs[cursor.pair + l][1]);
       }
@@ -150,7 +178,7 @@ struct Sweep {
 };
 
 PairRows rowsFor(const LawTraits& law, const dem::Particles& particles, const PairParts& list) {
-  PairRows rows{.spins = law.rotates, .rolls = true, .mass = true, .radius = true, .memory = law.kept()};
+  PairRows rows{.spins = law.rotates, .rolls = true, .mass = true, .radius = true, .memory = law.numbers()};
   dem::detail::findUniform(particles, rows);
   rows.varied = !list.factors.empty();
   return rows;
@@ -182,7 +210,7 @@ void keepEnergies(const LawTraits& law, Batch& batch) {
 dem::ContactWork answerPairs(const LawTraits& law, dem::Particles& particles, dem::PairList& list, double dt,
                              dem::Booking booking, Batch& batch, const Ask& ask) {
   dem::detail::requireStep(dt);
-  list.prepareMemory(law.kept(), law.turns());
+  list.prepareMemory(law.numbers(), law.turns());
   PairParts& pairs = dem::detail::partsOf(list);
   const Sweep sweep{law, particles, pairs, rowsFor(law, particles, pairs), dt, batch};
   if (law.rotates) pairs.chunks.torque.resize(pairs.chunks.force.size());
@@ -210,11 +238,11 @@ WallBatch::WallBatch(const LawTraits& law, double dt, std::size_t contacts, Batc
 }
 
 double WallBatch::take(ContactBlock& block, std::size_t n, std::span<const int> particle, double* memory) {
-  const auto kept = static_cast<std::size_t>(law_.kept());
-  std::array<ContactBlock::Row, 12> held;
-  for (std::size_t m = 0; m < kept; ++m) {
+  const auto kept = static_cast<std::size_t>(law_.kept()), numbers = static_cast<std::size_t>(law_.numbers());
+  std::array<ContactBlock::Row, 18> held;
+  for (std::size_t m = 0; m < numbers; ++m) {
     block.memory[m] = held[m].data();
-    for (std::size_t l = 0; l < n; ++l) held[m][l] = memory[l * kept + m];
+    for (std::size_t l = 0; l < n; ++l) held[m][l] = memory[l * numbers + m];
   }
   carryVectors(law_, block, n, dt_);
   double lost = 0.0;
@@ -223,10 +251,13 @@ double WallBatch::take(ContactBlock& block, std::size_t n, std::span<const int> 
     scales_.push_back(block.scale[l]);
     energyScales_.push_back(block.energyFraction[l]);
     places_.push_back(here ? static_cast<int>(batch_.first.size()) : -1);
-    if (!here) lost += block.scale[l] * held[kept - 1][l] / dt_;
-    if (!here) continue;
-    appendRow(law_, block, l, block.rootMass[l], dt_, rows_);
-    batch_.first.push_back(particle[l]);
+    if (here) {
+      appendRow<true>(law_, block, l, block.rootMass[l], dt_, rows_);
+      batch_.first.push_back(particle[l]);
+    } else {
+      lost += block.scale[l] * held[kept - 1][l] / dt_;
+    }
+    for (std::size_t m = kept; m < numbers; ++m) memory[l * numbers + m] = here ? held[m][l] : 0.0;
   }
   return lost;
 }
@@ -246,11 +277,11 @@ bool WallBatch::acts(std::size_t c, std::size_t& index) const {
 }
 
 dem::ContactWork energyOf(const LawTraits& law, const dem::EndedPairs& left) {
-  const auto kept = static_cast<std::size_t>(law.kept());
+  const auto numbers = static_cast<std::size_t>(law.numbers());
   dem::ContactWork joules;
-  if (left.memory.size() != kept * left.pairs.size()) return joules;  // of another law
+  if (left.memory.size() != numbers * left.pairs.size()) return joules;  // of another law
   for (std::size_t k = 0; k < left.pairs.size(); ++k) {
-    const double* const energies = left.memory.data() + k * kept + law.memory;
+    const double* const energies = left.memory.data() + k * numbers + law.memory;
     joules.frictionPower += left.pairs[k].factor * energies[1];
     if (left.pairs[k].overlap > -law.reach) joules.fracturePower += left.pairs[k].factor * energies[0];
   }
@@ -258,11 +289,11 @@ dem::ContactWork energyOf(const LawTraits& law, const dem::EndedPairs& left) {
 }
 
 double powerOf(const LawTraits& law, const dem::EndedMemories& ended, double dt) {
-  const auto kept = static_cast<std::size_t>(law.kept());
+  const auto numbers = static_cast<std::size_t>(law.numbers()), tangential = static_cast<std::size_t>(law.memory) + 1;
   double lost = 0.0;
-  if (ended.memory.size() != kept * ended.material.size()) return lost;  // of another law
+  if (ended.memory.size() != numbers * ended.material.size()) return lost;  // of another law
   for (std::size_t k = 0; k < ended.material.size(); ++k)
-    lost += ended.fraction[k] * ended.memory[(k + 1) * kept - 1] / dt;
+    lost += ended.fraction[k] * ended.memory[k * numbers + tangential] / dt;
   return lost;
 }
 

@@ -20,10 +20,13 @@ struct LawTraits {
   int memory = 0;            ///< numbers that a contact remembers for it
   std::vector<int> vectors;  ///< first numbers of the tangential vectors among them, which turn with the contact
   bool rotates = true;       ///< it exerts torques
+  bool damps = false;        ///< it has a dashpot, so that contacts remember how they moved in the last step
   double reach = 0.0;        ///< m
 
   /// With the elastic and tangential energies of the last answer, J, which are booked when the contact ends.
   int kept() const { return memory + 2; }
+  /// With velocity and spin of the last step.
+  int numbers() const { return kept() + (damps ? 6 : 0); }
   unsigned turns() const;  ///< see laws.hpp
 };
 
@@ -38,7 +41,12 @@ struct Batch {
     normal,
     slip = 8,
     spin = 11,
-    memory = 14
+    separated = 14,
+    slipped,
+    turned = 18,
+    engagement = 21,
+    engagementUntilEnd,
+    memory
   };
   enum Answered : std::size_t { force, couple = 3, elastic = 6, tangential, dissipated, friction, answers };
   std::size_t count = 0;
@@ -66,8 +74,8 @@ dem::ContactWork answerPairs(const LawTraits& law, dem::Particles& particles, de
 class WallBatch {
 public:
   WallBatch(const LawTraits& law, double dt, std::size_t contacts, Batch& batch);
-  /// Takes the next n contacts, and what they remember, kept() numbers a contact. Returns W lost with those that do not
-  /// act.
+  /// Takes the next n contacts, and what they remember, numbers() a contact, of which velocities move on. Returns W
+  /// lost with those that do not act.
   double take(dem::detail::ContactBlock& block, std::size_t n, std::span<const int> particle, double* memory);
   void ask(const Ask& ask);
   /// Whether contact c acts; then `index` is its place in the batch.
@@ -99,7 +107,7 @@ dem::ContactWork answerWall(const LawTraits& law, const dem::Particles& particle
                             std::vector<double>& memory, const dem::detail::WallSide& wall, double dt,
                             dem::Booking booking, const Motion& motion, Batch& batch, const Ask& ask) {
   using dem::detail::blockSize;
-  const auto kept = static_cast<std::size_t>(law.kept());
+  const auto kept = static_cast<std::size_t>(law.kept()), numbers = static_cast<std::size_t>(law.numbers());
   const std::size_t count = contacts.particle.size();
   const bool booked = booking == dem::Booking::on;
   contacts.energy.assign(count, 0.0);
@@ -109,9 +117,9 @@ dem::ContactWork answerWall(const LawTraits& law, const dem::Particles& particle
   dem::detail::ContactBlock block;
   for (std::size_t first = 0; first < count; first += blockSize) {
     const std::size_t n = std::min(blockSize, count - first);
-    dem::detail::gatherWall<detail::Bare>(particles, contacts, memory, {}, wall, first, n, motion, block);
+    dem::detail::gatherWall<detail::Bare>(particles, contacts, memory, 0, {}, wall, first, n, motion, block);
     const double lost =
-        all.take(block, n, std::span(contacts.particle).subspan(first, n), memory.data() + first * kept);
+        all.take(block, n, std::span(contacts.particle).subspan(first, n), memory.data() + first * numbers);
     if (booked) work.frictionPower += lost;
   }
   all.ask(ask);
@@ -120,7 +128,8 @@ dem::ContactWork answerWall(const LawTraits& law, const dem::Particles& particle
     const bool acts = all.acts(c, k);
     contacts.force[c] = acts ? all.scale(c) * batch.answer(Batch::force, k) : Vec3{};
     if (law.rotates) contacts.couple[c] = acts ? all.scale(c) * batch.answer(Batch::couple, k) : Vec3{};
-    for (std::size_t m = 0; m < kept; ++m) memory[c * kept + m] = acts ? batch.givenColumn(Batch::memory + m)[k] : 0.0;
+    for (std::size_t m = 0; m < kept; ++m)
+      memory[c * numbers + m] = acts ? batch.givenColumn(Batch::memory + m)[k] : 0.0;
     if (!acts || !booked) continue;
     contacts.energy[c] = all.energyScale(c) * batch.answerColumn(Batch::elastic)[k];
     contacts.sideEnergy[c] = all.scale(c) * batch.answerColumn(Batch::tangential)[k];

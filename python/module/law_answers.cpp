@@ -100,6 +100,26 @@ py::array_t<std::int64_t> ContactsView::ids(const std::vector<int>& numbers) con
   return some;
 }
 
+py::array_t<double> ContactsView::seen(const Values& slope) const {
+  const auto n = static_cast<py::ssize_t>(batch->count);
+  const bool one = slope.size() == 1;
+  if (!one && !(slope.ndim() == 1 && slope.shape(0) == n))
+    throw InputError("the shape of a slope is " + shapeOf(slope), "contacts", "give (" + std::to_string(n) + ")");
+  py::array_t<double> found(n);
+  double* const to = found.mutable_data();
+  dem::Contact contact;
+  contact.dt = batch->dt;
+  contact.inverseDt = batch->dt > 0.0 ? 1.0 / batch->dt : 0.0;
+  for (py::ssize_t k = 0; k < n; ++k) {
+    const double mass = batch->givenColumn(Batch::mass)[k];
+    contact.separating = batch->givenColumn(Batch::separating)[k];
+    contact.separated = batch->givenColumn(Batch::separated)[k];
+    contact.inverseMass = mass > 0.0 ? 1.0 / mass : 0.0;
+    to[k] = dem::seenBy(contact, slope.data()[one ? 0 : k]);
+  }
+  return found;
+}
+
 void ContactsView::remember(const Values& values) const {
   const auto n = static_cast<py::ssize_t>(batch->count), numbers = static_cast<py::ssize_t>(memory);
   if (values.ndim() != 2 || values.shape(0) != n || values.shape(1) != numbers)

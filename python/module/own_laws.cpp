@@ -29,9 +29,9 @@ struct InPlace {
   void exit(const py::args&) { now.reset(); }
 };
 
-Laws called(const std::string& name, int memory, std::vector<int> tangential, bool rotates, double reach,
+Laws called(const std::string& name, int memory, std::vector<int> tangential, bool rotates, double reach, bool damps,
             py::function function, py::function stiffness, std::map<std::string, double> parameters) {
-  LawTraits traits{memory, std::move(tangential), rotates, reach};
+  LawTraits traits{memory, std::move(tangential), rotates, damps, reach};
   return {std::make_shared<const CalledLaws>(name, std::move(traits), std::move(function), std::move(stiffness),
                                              std::move(parameters))};
 }
@@ -55,14 +55,28 @@ void bindContacts(py::module_& m) {
       "dt", [](const ContactsView& c) { return c.batch->dt; }, "Step over which memories advance, s.");
   defColumn(contacts, "overlap", Batch::overlap, 1, "m, > 0 where they touch; (N).");
   defColumn(contacts, "overlap_before", Batch::overlapBefore, 1, "One step ago, m; < 0: they were apart; (N).");
-  defColumn(contacts, "separating", Batch::separating, 1,
-            "Velocity of the first relative to the second along the normal, m/s, > 0 while the overlap closes; (N).");
+  defColumn(
+      contacts, "separating", Batch::separating, 1,
+      "Velocity of the first relative to the second along the normal, m/s, > 0 while the overlap closes; of laws with "
+      "`damping` at this instant, as `slip` and `spin`, else in the half step before; (N).");
   defColumn(contacts, "effective_mass", Batch::mass, 1, "m1 m2/(m1 + m2), kg; with a wall that of the grain; (N).");
   defColumn(contacts, "effective_radius", Batch::radius, 1, "R1 R2/(R1 + R2), m; with a wall the grain's; (N).");
   defColumn(contacts, "normal", Batch::normal, 3, "Unit, from the second to the first; (N, 3).");
   defColumn(contacts, "slip", Batch::slip, 3,
             "Tangential velocity of the first relative to the second at the contact, m/s; (N, 3).");
   defColumn(contacts, "spin", Batch::spin, 3, "Angular velocity of the first minus the second's, rad/s; (N, 3).");
+  defColumn(contacts, "slipped", Batch::slipped, 3,
+            "Tangential displacement in this step, while they touched, m: what springs are stretched by; (N, 3).");
+  defColumn(contacts, "turned", Batch::turned, 3, "Relative rotation in this step, while they touched, rad; (N, 3).");
+  defColumn(
+      contacts, "engagement", Batch::engagement, 1,
+      "Factor on a dashpot, which is there at once when two touch: 1, and in that step the time that it lasts over "
+      "dt; (N).");
+  defColumn(contacts, "engagement_until_end", Batch::engagementUntilEnd, 1,
+            "The same of a force that also ends at once, as one that pulls; (N).");
+  contacts.def(
+      "seen", [](const ContactsView& c, const Values& slope) { return c.seen(slope); }, py::arg("slope"),
+      "`separating` as the dashpot beside a spring sees it, which has changed it by its slope (N/m) since; m/s, (N).");
   contacts.def_property(
       "memory",
       [](const py::object& self) {

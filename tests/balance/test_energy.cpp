@@ -7,8 +7,8 @@ namespace dovetail::surface {
 namespace {
 
 constexpr double duration = 0.1;
-constexpr std::array<double, 5> macroSizes{1.6e-3, 8e-4, 4e-4, 2e-4, 1e-4};  // s
-constexpr double energyThereIs = 0.6386;                                     // J
+constexpr std::array<double, 5> macroSizes{1.4e-3, 7e-4, 3.5e-4, 1.75e-4, 8.75e-5};  // s
+constexpr double energyThereIs = 0.6386;                                             // J
 
 /// Mean slope of log(error) over log(macro step): errors of single runs scatter with the instants at which contacts
 /// begin.

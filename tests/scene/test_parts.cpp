@@ -133,8 +133,11 @@ TEST(SceneParts, StepsThatAreAutomaticAreAShareOfTheSmallestLimit) {
   Built built = started(scene);
   double smallest = 1.0;
   for (const StepLimit& limit : limits(built, scene)) smallest = std::min(smallest, limit.dt);
-  // Two spheres of mass m on a spring: 2/ω = 2 √(m/2k).
-  EXPECT_NEAR(smallest, 2.0 * std::sqrt(0.5 * built.run->grains.particles.mass[0] / 5e3), 1e-12);
+  // An impact on the wall, with its dashpot: 2 √(m/k) (√(1 + 4ζ²) − 2ζ).
+  const double damped = 2.0 * dem::LinearSpringDashpot{5e3, 0.5}.dampingRatio();
+  EXPECT_NEAR(smallest,
+              2.0 * std::sqrt(built.run->grains.particles.mass[0] / 5e3) * (std::sqrt(1.0 + damped * damped) - damped),
+              1e-12);
   EXPECT_EQ(built.run->dt(), 0.1 * smallest);
 }
 
@@ -155,9 +158,9 @@ TEST(SceneParts, AutomaticStepsGoThroughImpacts) {
   EXPECT_NEAR(bold.run->dt(), 0.4 / std::numbers::pi * halfPeriod, 1e-12 * halfPeriod);
   ASSERT_EQ(bold.notes.size(), 1U);
   expectParts(bold.notes[0], {"eight steps", "impact", "steps.dt"});
-  // Dashpots take some of 2/ω: √(1 + ζ²) − ζ = 0.93.
+  // Dashpots take some of 2/ω: √(1 + 4ζ²) − 2ζ = 0.862.
   EXPECT_LT(careful.run->dt(), 0.1 / std::numbers::pi * halfPeriod);
-  EXPECT_GT(careful.run->dt(), 0.092 / std::numbers::pi * halfPeriod);
+  EXPECT_GT(careful.run->dt(), 0.086 / std::numbers::pi * halfPeriod);
   EXPECT_TRUE(careful.notes.empty());
   const Built bonded = started(twoSpheres(R"("bonded": true)", "0.9"));  // meets nobody anew
   EXPECT_NEAR(bonded.run->dt(), 1.8 / std::numbers::pi * halfPeriod, 1e-12 * halfPeriod);

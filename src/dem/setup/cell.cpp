@@ -8,6 +8,7 @@
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/pairs/contact_sample.hpp"
+#include "dovetail/dem/setup/relax.hpp"
 
 namespace dovetail::dem {
 
@@ -37,6 +38,7 @@ void strainContacts(Model& m, const Vec3& strain) {
   if (m.pairs.size() == 0) return;
   constexpr double noTime = 1e-100, dt = 0x1p40;  // s
   const int memory = m.laws->memory();
+  forgetVelocities(m);
   detail::PairsApart apart(m.pairs.size());
   apart.take(m.particles, m.pairs, 0, memory);
   Particles& p = apart.particles;
@@ -58,6 +60,7 @@ void strainContacts(Model& m, const Vec3& strain) {
     std::vector<std::size_t> places(m.pairs.size());
     std::iota(places.begin(), places.end(), std::size_t{0});
     m.pairs.takeMemory(places, apart.list);
+    forgetVelocities(m);
   }
   if (m.booking == Booking::off) return;
   bookLosses(m, work, dt);

@@ -141,6 +141,16 @@ void stop(Model& m) {
     std::fill(term->bodies.v.begin(), term->bodies.v.end(), Vec3{});
     std::fill(term->bodies.angularMomentum.begin(), term->bodies.angularMomentum.end(), Vec3{});
   }
+  forgetVelocities(m);
+}
+
+void forgetVelocities(Model& m) {
+  if (!m.laws || m.laws->memory() == m.laws->springs()) return;
+  const auto springs = static_cast<std::ptrdiff_t>(m.laws->springs());
+  auto& ofPairs = detail::partsOf(m.pairs).memory;
+  if (ofPairs.size() == m.pairs.size() * static_cast<std::size_t>(m.laws->memory()))
+    std::fill(ofPairs.begin() + springs * static_cast<std::ptrdiff_t>(m.pairs.size()), ofPairs.end(), 0.0);
+  for (const auto& term : m.terms) term->forgetVelocities(m.laws->springs());
 }
 
 double kineticEnergy(const Model& m) {
@@ -258,6 +268,7 @@ RelaxationReport relax(Model& m, const RestCriterion& rest, const RelaxationOpti
     const double before = kineticEnergy(m);
     const FireMix mix = fire.next(fireSums(m));
     steer(m, mix, fire.dt());
+    forgetVelocities(m);
     m.booked.damping += before - kineticEnergy(m);
     run(m, fire.dt(), 1);
   }

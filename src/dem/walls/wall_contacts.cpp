@@ -46,6 +46,12 @@ void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>&
   if (remembered.size() != components * contacts) remembered.assign(components * contacts, 0.0);
 }
 
+void forgetVelocities(std::vector<double>& memory, std::size_t contacts, int springs) {
+  const auto numbers = contacts == 0 ? std::ptrdiff_t{0} : static_cast<std::ptrdiff_t>(memory.size() / contacts);
+  for (auto one = memory.begin(); numbers > springs && one != memory.end(); one += numbers)
+    std::fill(one + springs, one + numbers, 0.0);
+}
+
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
               std::size_t contact, std::size_t components, double fraction) {
   if (components == 0) return;

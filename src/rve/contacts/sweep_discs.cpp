@@ -24,31 +24,31 @@ struct DiscLaw {
 template <bool slides, bool rolls>
 void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows& __restrict r) {
   const int padded = at.padded;
-  dem::Contact contact;
-  contact.dt = law.dt;
-  contact.inverseDt = 1.0;  // losses in J
+  constexpr double inJoule = 1.0;  // in place of 1/dt
   for (int m = 0; m < padded; ++m) {
     const double bx = at.branch[0][m], by = at.branch[1][m];
     const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d, nx = bx * inverse, ny = by * inverse;
     const double overlap = r.radiusI[m] + r.radiusJ[m] - d, k = r.stiffness[m], normalForce = k * overlap;
-    double tangentialForce = 0.0, moment = 0.0, slipped = 0.0;
+    double tangentialForce = 0.0, moment = 0.0, slipped = 0.0, moving = law.dt;
     const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
     if constexpr (slides) {
       const double wx = r.speedX[m] + law.xx * bx + law.xy * by, wy = r.speedY[m] + law.xy * bx + law.yy * by;
       const double kt = law.ratio * k, slip = wy * nx - wx * ny - armI * r.spinI[m] - armJ * r.spinJ[m];
-      const dem::Slider<false, double> now(r.stretch[m], kt * r.stretch[m], slip, kt, 0.0, 1.0,
-                                           law.friction * normalForce, contact);
+      moving = touchTime(overlap, wx * nx + wy * ny, law.dt);
+      const dem::Slider<false, double> now(r.stretch[m], kt * r.stretch[m], moving * slip, slip, kt, 0.0,
+                                           law.friction * normalForce, inJoule);
       tangentialForce = now.force;
-      slipped = now.lostPower;
+      slipped = now.slipPower;
       r.stretch[m] = now.stretch;
     }
     if constexpr (rolls) {
       const double least = r.radiusI[m] < r.radiusJ[m] ? r.radiusI[m] : r.radiusJ[m];
       const double kr = law.rolling * law.ratio * k * r.radiusI[m] * r.radiusJ[m];
-      const dem::Slider<false, double> now(r.roll[m], kr * r.roll[m], r.spinI[m] - r.spinJ[m], kr, 0.0, 1.0,
-                                           law.rollingLimit * least * normalForce, contact);
+      const double spin = r.spinI[m] - r.spinJ[m];
+      const dem::Slider<false, double> now(r.roll[m], kr * r.roll[m], moving * spin, spin, kr, 0.0,
+                                           law.rollingLimit * least * normalForce, inJoule);
       moment = now.force;
-      slipped += now.lostPower;
+      slipped += now.slipPower;
       r.roll[m] = now.stretch;
     }
     r.force[0][m] = -normalForce * nx - tangentialForce * ny;

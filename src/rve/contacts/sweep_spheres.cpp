@@ -30,9 +30,7 @@ struct SphereLaw {
 template <bool slides, bool elastic>
 void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereRows& __restrict r) {
   const int padded = at.padded;
-  dem::Contact contact;
-  contact.dt = law.dt;
-  contact.inverseDt = 1.0;  // losses in J
+  constexpr double inJoule = 1.0, firstMean = 2.0 / 3.0;  // in place of 1/dt; of Hertz's slope
   for (int m = 0; m < padded; ++m) {
     const Vec3 b = vectorAt(at.branch, m);
     const double d = std::sqrt(at.squared[m]);
@@ -48,13 +46,14 @@ void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereR
       const Vec3 spinI = vectorAt(r.spinI, m), spinJ = vectorAt(r.spinJ, m);
       const Vec3 w = vectorAt(r.speed, m) + product(law.rate, b) - cross(armI * spinI + armJ * spinJ, n);
       const double twist = law.dt * dot(0.5 * (spinI + spinJ), n);
-      const Vec3 old = dem::carried(product(law.turn, vectorAt(r.stretch, m)), n, twist), slip = w - dot(w, n) * n;
+      const double separating = dot(w, n), moving = touchTime(overlap, separating, law.dt);
+      const Vec3 old = dem::carried(product(law.turn, vectorAt(r.stretch, m)), n, twist), slip = w - separating * n;
       const double kt = law.ratio * k, limit = law.friction * normalForce;
       const dem::Slider<false> now =
-          elastic ? dem::slideGrowing<false>(old, r.tangent[m], slip, kt, 0.0, 1.0, limit, contact)
-                  : dem::Slider<false>(old, kt * old, slip, kt, 0.0, 1.0, limit, contact);
+          elastic ? dem::slideGrowing<false>(old, r.tangent[m], moving * slip, slip, kt, firstMean, 0.0, limit, inJoule)
+                  : dem::Slider<false>(old, kt * old, moving * slip, slip, kt, 0.0, limit, inJoule);
       if constexpr (elastic) r.tangent[m] = kt;
-      r.slipped[m] = now.lostPower;
+      r.slipped[m] = now.slipPower;
       setVector(r.stretch, m, now.stretch);
       setVector(r.force, m, now.force - normalForce * n);
       const Vec3 couple = cross(n, now.force);

@@ -16,7 +16,7 @@ struct Rebound {
   double found = 1.0, right = 1.0;
   double error() const { return std::abs(found - right); }
 };
-/// What the error of a low restitution may be: dashpots are of first order in the step.
+/// What the error of a low restitution may be.
 inline constexpr double reboundTolerance = 0.03;
 
 /// Of laws with a restitution below a half: the impact of the smallest grains whose rebound is farthest from the law's,

@@ -26,6 +26,7 @@ struct Impact {
   double worstResidual = 0.0;               // largest |kinetic + stored + lost − start|, J
   double worstGain = 0.0;                   // largest kinetic + stored − start, J
   double impulse = 0.0, deepImpulse = 0.0;  // ∫F dt, N s, and ∫F δ dt, N s m, of the normal force on particle 0
+  double dashpots = 0.0;                    // W, at the last step
   double leastPower = 0.0;                  // most negative power booked to friction, rolling or plastic flow, W
   ContactWork work;
 
@@ -62,8 +63,10 @@ struct Impact {
     book(dt);
   }
 
+  /// As a model does: what dashpots take at an instant for the halves of the steps before and after it.
   void book(double dt) {
-    lost += work.lostPower() * dt;
+    lost += (work.lostPower() - 0.5 * (work.dissipatedPower - dashpots)) * dt;
+    dashpots = work.dissipatedPower;
     stored = work.storedEnergy();
     leastPower = std::min({leastPower, work.frictionPower, work.rollingPower, work.plasticPower});
     const double energy = kineticEnergy(particles) + stored;

@@ -43,11 +43,11 @@ Outcome impactAt(const Law& law, bool wall, double degrees, double speed, double
           impact.worstGain / impact.start, impact.leastPower * time / impact.start, end / impact.start};
 }
 
-/// While dashpots work the ledger is ahead by a quarter of what they take in a step: to `tolerance` of the energy at
-/// 500 steps per impact, to a quarter of it at 2000. When all is over it closes far better.
+/// At any moment the ledger closes to 5e-5 of the energy at 500 steps per impact.
 /// @param time duration of an impact at the given speed
 template <class Law, class Time>
-void sweep(const std::string& name, const Law& law, const Time& time, double tolerance) {
+void sweep(const std::string& name, const Law& law, const Time& time) {
+  constexpr double tolerance = 5e-5;
   validate(law);
   double worst = 0.0, worstFine = 0.0, left = 0.0, leftFine = 0.0;
   for (const bool wall : {false, true})
@@ -69,8 +69,8 @@ void sweep(const std::string& name, const Law& law, const Time& time, double tol
         leftFine = std::max(leftFine, fine.left);
       }
   EXPECT_LE(worst, tolerance) << name;
-  EXPECT_LE(left, 1e-4) << name;
-  EXPECT_LE(worstFine, 0.3 * worst) << name;  // a quarter of the step
+  EXPECT_LE(left, tolerance) << name;
+  EXPECT_LE(worstFine, 0.4 * worst) << name;  // a quarter of the step
 }
 
 const Material glass{5e9, 0.25, density};
@@ -88,7 +88,7 @@ TEST(EnergySweep, HertzMindlin) {
   for (const double e : {1.0, 0.7})
     for (const double damping : {0.0, 1.0}) {
       const auto law = hertzMindlin(glass, glass, {e, 0.4, damping});
-      sweep("Hertz-Mindlin " + std::to_string(e) + " " + std::to_string(damping), law, hertzTime(law), 2e-3);
+      sweep("Hertz-Mindlin " + std::to_string(e) + " " + std::to_string(damping), law, hertzTime(law));
     }
 }
 
@@ -96,14 +96,14 @@ TEST(EnergySweep, LinearSprings) {
   for (const double e : {1.0, 0.7})
     for (const double damping : {0.0, 1.0}) {
       const FrictionalLaw law{{1e6, e, false}, {7e5, 0.4, damping}};
-      sweep("linear " + std::to_string(e) + " " + std::to_string(damping), law, linearTime(1e6), 2e-3);
+      sweep("linear " + std::to_string(e) + " " + std::to_string(damping), law, linearTime(1e6));
     }
 }
 
 TEST(EnergySweep, ElasticPlasticWithAndWithoutCohesion) {
   for (const double cohesion : {0.0, 2e5}) {
     const ContactLaw<ElasticPlastic, TangentialSpring> law{{4e5, 1e6, cohesion, 0.1}, {7e5, 0.4}};
-    sweep("plastic " + std::to_string(cohesion), law, linearTime(4e5), 2e-3);
+    sweep("plastic " + std::to_string(cohesion), law, linearTime(4e5));
   }
 }
 
@@ -113,7 +113,7 @@ TEST(EnergySweep, RollingAndTwisting) {
   law.normal = base.normal;
   law.tangential = base.tangential;
   law.rolling = {{0.1, 0.4, 0.5}, {0.1, 0.4, 0.5}};
-  sweep("rolling", law, hertzTime(law), 2e-3);
+  sweep("rolling", law, hertzTime(law));
 }
 
 TEST(EnergySweep, Adhesion) {
@@ -122,17 +122,16 @@ TEST(EnergySweep, Adhesion) {
   law.normal = base.normal;
   law.tangential = base.tangential;
   law.adhesion = {1e4, 1e5};
-  sweep("linear cohesion", law, hertzTime(law), 2e-3);
+  sweep("linear cohesion", law, hertzTime(law));
 }
 
 TEST(EnergySweep, DmtAdhesion) {
-  // The pull sets in at once, so that one step's work of it is in doubt when they touch and when they part.
   ContactLaw<HertzDashpot, MindlinSpring, NoRolling, DmtAdhesion> law;
   const auto base = hertzMindlin(glass, glass, {0.8, 0.4});
   law.normal = base.normal;
   law.tangential = base.tangential;
   law.adhesion = {0.02};
-  sweep("DMT", law, hertzTime(law), 4e-3);
+  sweep("DMT", law, hertzTime(law));
 }
 
 TEST(EnergySweep, ASphereAThousandTimesLargerActsAsAWall) {
@@ -151,7 +150,7 @@ TEST(EnergySweep, ASphereAThousandTimesLargerActsAsAWall) {
     }
     Impact impact(who, law, wall);
     impact.run(time / steps, 2.5 * time);
-    EXPECT_LE(impact.worstResidual, 2e-3 * impact.start);
+    EXPECT_LE(impact.worstResidual, 2e-4 * impact.start);
     return std::array<Vec3, 2>{impact.particles.v[0], radius * impact.particles.omega[0]};
   };
   const auto wall = meet(true, 2000), pair = meet(false, 2000);

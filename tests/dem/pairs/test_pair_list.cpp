@@ -141,7 +141,7 @@ TEST(PairList, ThinnerInnerSkinsWhereTheCandidatesLastLonger) {
 }
 
 TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {
-  LawTable<FrictionalLaw> table(2, {{1e3, 0.8}, {5e2, 0.4}});
+  LawTable<FrictionalLaw> table(2, {{1e3}, {5e2, 0.4}});
   table.set(1, 1, {{4e3}, {3e3, 0.4}});
   const auto laws = makeContactLaws(table);
   Particles particles;

@@ -274,7 +274,8 @@ TEST(Statics, MixingKeepsFactorsFromStepToStepWhileTheyDo) {
   EXPECT_GT(factorisations(0.6), 1);
 }
 
-/// A block pressed onto a plane that is far stiffer: the plane's force comes at once, and kept factors know nothing of it.
+/// A block pressed onto a plane that is far stiffer: the plane's force comes at once, and kept factors know nothing of
+/// it.
 StaticReport pressOnto(double gap, const NewtonOptions& newton, std::vector<Vec3>& u) {
   Bar b = bar({ElementShape::hex8, Formulation::standard}, {2, 2, 2}, {1.0, 1.0, 1.0}, 2e6, 1e6);
   const std::vector<int> top = nodesAt(b.mesh, 2, 1.0);
@@ -284,8 +285,8 @@ StaticReport pressOnto(double gap, const NewtonOptions& newton, std::vector<Vec3
   ContactOptions options;
   options.penalty = 1e9;
   b.model.add(makeContactPlane(b.mesh, faceSet(b.mesh, "z-"), {{0, 0, -gap}, {0, 0, 1}, {}}, options));
-  const StaticReport report = solveStatics(
-      b.model, 1.0, {.newton = newton, .firstStep = 0.125, .largestStep = 0.125, .iterationTarget = 1000});
+  const StaticReport report =
+      solveStatics(b.model, 1.0, {.newton = newton, .firstStep = 0.125, .largestStep = 0.125, .iterationTarget = 1000});
   for (const StaticStep& step : report.steps) EXPECT_LE(step.residual, step.tolerance);
   u = b.model.nodes.u;
   return report;

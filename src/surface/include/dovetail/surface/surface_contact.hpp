@@ -48,6 +48,7 @@ public:
   void findFacetContacts(dem::Model& m, const dem::Step& step, std::vector<dem::WallAtSeam>& seams) override;
   void takeFacetContacts(dem::Model& m, const dem::Step& step, std::vector<dem::AnsweredContacts>& walls) override;
   void addForces(dem::Model& m, const dem::Step& step) override;
+  void forgetVelocities(int springs) override { coupling_.forgetVelocities(springs); }
   void addDemand(const dem::Model& m, dem::ContactDemand& demand) const override;
   void addPartners(const dem::Model& m, std::vector<dem::ImpactPartner>& partners) const override;
   void addContacts(const dem::Model& m, dem::ContactSample& sample) const override;

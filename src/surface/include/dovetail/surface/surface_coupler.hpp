@@ -137,6 +137,8 @@ public:
   const Skin& skin() const;
   const SmoothSurface& smoothSurface() const;
   const dem::WallContacts& contacts() const { return contacts_; }
+  /// See dem::forgetVelocities.
+  void forgetVelocities(int springs) { dem::forgetVelocities(contacts_, springs); }
   /// The wall whose facets the contacts are with.
   const dem::TriangulatedWall& wall() const;
   /// The whole surface as facets (between the control points, of smooth patches), placed as told.

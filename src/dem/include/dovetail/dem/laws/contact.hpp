@@ -6,30 +6,43 @@
 
 namespace dovetail::dem {
 
+/// What a contact remembers of how its two bodies moved in the last step. Dashpots see velocities of the instant of the
+/// force, v₊ + ½(v₊ − v₋), as the loop over contacts knows those of the half steps before it, v₊ and v₋.
+enum class Recall { nothing, approach, motion };
+
 /// Two bodies in contact: particle and partner (a particle, or a wall that counts as infinitely heavy and flat).
+/// Velocities are those of this instant, where the law's dashpots say so (PreparedParts::recall), else those of the
+/// half step before.
 struct Contact {
-  double overlap = 0.0;  ///< δ, m; > 0 while they touch. After the last touch δ is asked for once more, as it was
+  double overlap = 0.0;          ///< δ, m; > 0 while they touch
   double overlapBefore = 0.0;    ///< δ one step ago, m; < 0 if they were apart
   double separating = 0.0;       ///< n·velocity, m/s; > 0 while the overlap closes
+  double separated = 0.0;        ///< n·displacement in this step, while they touched, m
   double effectiveMass = 0.0;    ///< m₁m₂/(m₁ + m₂), kg; only where a part has `needsMass`
   double rootMass = 0.0;         ///< its square root, kg^½
+  double inverseMass = 0.0;      ///< 1/effectiveMass, 1/kg; 0 where no dashpot asks for it
   double effectiveRadius = 0.0;  ///< R₁R₂/(R₁ + R₂), m; only where a part has `needsRadius`
   Vec3 normal;                   ///< unit, from the partner to the particle
   Vec3 slip;                     ///< tangential velocity of the particle relative to the partner at the contact, m/s
   Vec3 spin;                     ///< angular velocity of the particle minus the partner's, rad/s
+  Vec3 slipped;                  ///< tangential displacement in this step, while they touched, m
+  Vec3 turned;                   ///< relative rotation in this step, while they touched, rad
+  bool first = false;            ///< they have come to touch in this step
+  bool last = false;             ///< they will part, or the law's reach will end, in the next step
+  double fraction = 1.0;         ///< of the step, since they touched or until they part; 1 in all other steps
   double dt = 0.0;               ///< step over which memories advance, s
   double inverseDt = 0.0;        ///< 1/dt, 1/s
 };
 
 struct NormalResponse {
-  double force = 0.0;            ///< N along the normal on the particle; > 0 pushes apart
-  double stiffness = 0.0;        ///< N/m, slope of the elastic force, > 0; other parts scale with it
-  double damping = 0.0;          ///< N s/m, of the dashpot; other parts scale with it
-  double energy = 0.0;           ///< J, recoverable
-  double dampingFraction = 1.0;  ///< of a dashpot's power now that belongs to this step, see bookedDashpot
-  double dashpotPower = 0.0;     ///< W, average of this step
-  double dashpotAfter = 0.0;     ///< W, what still belongs to the dashpot in the step after the last touch
-  double plasticPower = 0.0;     ///< W, average of this step
+  double force = 0.0;         ///< N along the normal on the particle; > 0 pushes apart
+  double stiffness = 0.0;     ///< N/m, slope of the elastic force, > 0; other parts scale with it
+  double firstMean = 1.0;     ///< its mean since first touch over that now, in the step of the first touch
+  double damping = 0.0;       ///< N s/m, of the dashpot; other parts scale with it
+  double energy = 0.0;        ///< J, recoverable
+  double engagement = 1.0;    ///< factor on all dashpots in this step: see engagementOf
+  double dashpotPower = 0.0;  ///< W, now
+  double plasticPower = 0.0;  ///< W, average of this step
 };
 
 struct AdhesionResponse {
@@ -38,15 +51,17 @@ struct AdhesionResponse {
 };
 
 struct TangentialResponse {
-  Vec3 force;              ///< N on the particle
-  double energy = 0.0;     ///< J stored
-  double slipPower = 0.0;  ///< W lost, average of this step
+  Vec3 force;                 ///< N on the particle
+  double energy = 0.0;        ///< J stored
+  double slipPower = 0.0;     ///< W lost to sliding, average of this step
+  double dashpotPower = 0.0;  ///< W, now
 };
 
 struct RollingResponse {
-  Vec3 couple;             ///< N m on the particle, the opposite on the partner
-  double energy = 0.0;     ///< J stored
-  double lostPower = 0.0;  ///< W lost, average of this step
+  Vec3 couple;                ///< N m on the particle, the opposite on the partner
+  double energy = 0.0;        ///< J stored
+  double slipPower = 0.0;     ///< W lost to sliding, average of this step
+  double dashpotPower = 0.0;  ///< W, now
 };
 
 /// Turns a stored tangential vector with the pair since the last step: into the present contact plane, and about the
@@ -74,7 +89,6 @@ struct ContactResponse {
   Vec3 force;   ///< N on the particle
   Vec3 couple;  ///< N m on the particle beyond arm × force
   ContactWork work;
-  double dashpotAfter = 0.0;  ///< see NormalResponse
 };
 
 }  // namespace dovetail::dem

@@ -22,6 +22,7 @@ namespace dovetail::dem::detail {
 
 inline constexpr std::size_t blockSize = 64;
 inline constexpr std::size_t channels = 8;  // of ContactWork
+inline constexpr double timeless = 1e-90;   // s; in shorter steps nothing moves on and no velocity is remembered
 
 /// Up to blockSize contacts: rows that are filled before `answer`, and rows that it fills. Rows that a law does not
 /// need are never touched.
@@ -50,7 +51,17 @@ struct ContactBlock {
   alignas(64) Row effectiveRadius;  ///< m
   alignas(64) Row scale;            ///< factor on forces and energies
   alignas(64) std::array<int, blockSize> kind;  ///< row of the law table
-  std::array<double*, 12> memory;               ///< of the law, rows by component; advanced
+  std::array<double*, 18> memory;  ///< of the law, and of velocities (ContactLaw::recalled), by component; advanced
+  bool recalls = false;            ///< velocities are remembered
+  /// Of `count` rows from number `first` on, which are of velocities, says whether they are kept; if not, all are
+  /// `none`.
+  void recall(int first, int count, bool kept, Row& none) {
+    recalls = kept;
+    for (int c = first; c < first + count && !kept; ++c) memory[static_cast<std::size_t>(c)] = none.data();
+  }
+
+  // Between the passes
+  Rows3 drift;  ///< what the contact's turning in a step adds to n·v (x), or to the velocity, m/s
 
   // Answered
   Rows3 force;                                 ///< on the particle, N
@@ -65,6 +76,7 @@ struct BlockOptions {
   bool wall = false;    ///< normal, overlap and velocity at the contact are given, not those of the centres
   bool varied = false;  ///< contacts have a scale and a row of the law table
   bool booked = true;   ///< energies are wanted
+  Recall recall = Recall::nothing;
 };
 
 template <std::size_t... C>
@@ -84,7 +96,7 @@ inline void storeWork(ContactBlock& block, std::size_t l, const ContactWork& now
     block.work[channel][l] = factor * (touches ? a : b);
   };
   put(0, normalScale, now.elasticEnergy, 0.0);
-  put(1, scale, now.dissipatedPower, ended.dissipatedPower);
+  put(1, scale, now.dissipatedPower, 0.0);
   put(2, scale, now.tangentialEnergy, 0.0);
   put(3, scale, now.frictionPower, ended.frictionPower);
   put(4, scale, now.rollingEnergy, 0.0);
@@ -104,32 +116,46 @@ struct Meeting {
   Vec3 normal;     ///< unit, from the partner to the particle
   Vec3 velocity;   ///< of the particle relative to the partner at the contact, m/s
   double overlap;  ///< m
+  Vec3 drift;      ///< see ContactBlock
 };
 
-template <bool spins>
-[[gnu::always_inline]] inline Meeting meetingOf(const ContactBlock& block, std::size_t l) {
+/// @tparam recall  approach: drift.x is that of n·v, d(n)/dt·v dt; motion: drift is that of the velocity at the contact
+template <bool spins, Recall recall>
+[[gnu::always_inline]] inline Meeting meetingOf(const ContactBlock& block, std::size_t l, [[maybe_unused]] double dt) {
   const Vec3 separation = block.separation.at(l);
   const double squared = squaredNorm(separation);
   const double distance = std::sqrt(squared), inverse = 1.0 / (squared > 0.0 ? distance : 1.0);
   const Vec3 normal{squared > 0.0 ? separation.x * inverse : 1.0, separation.y * inverse, separation.z * inverse};
   const double overlap = block.radiusI[l] + block.radiusJ[l] - distance;
-  Vec3 velocity = block.velocity.at(l);
+  Vec3 velocity = block.velocity.at(l), drift;
+  if constexpr (recall == Recall::approach) {
+    const double separating = dot(normal, velocity);
+    drift.x = (squaredNorm(velocity) - separating * separating) * inverse * dt;
+  }
   // The arms, R − overlap/2, add up to the distance, and differ as the radii do.
-  if constexpr (spins)
-    velocity -= cross((0.5 * distance) * block.spinSum.at(l) +
-                          (0.5 * (block.radiusI[l] - block.radiusJ[l])) * block.spinDifference.at(l),
-                      normal);
-  return {normal, velocity, overlap};
+  if constexpr (spins) {
+    const Vec3 turning = (0.5 * distance) * block.spinSum.at(l) +
+                         (0.5 * (block.radiusI[l] - block.radiusJ[l])) * block.spinDifference.at(l);
+    if constexpr (recall == Recall::motion)
+      drift = (-inverse * dt) * cross(turning, velocity - dot(normal, velocity) * normal);
+    velocity -= cross(turning, normal);
+  }
+  return {normal, velocity, overlap, drift};
 }
 
-template <bool spins>
-[[gnu::always_inline]] inline void meet(ContactBlock& block, std::size_t n) {
+template <bool spins, Recall recall>
+[[gnu::always_inline]] inline void meet(ContactBlock& block, std::size_t n, double dt) {
   DOVETAIL_INDEPENDENT
   for (std::size_t l = 0; l < n; ++l) {
-    const Meeting meeting = meetingOf<spins>(block, l);
+    const Meeting meeting = meetingOf<spins, recall>(block, l, dt);
     block.normal.set(l, meeting.normal);
     block.velocity.set(l, meeting.velocity);
     block.overlap[l] = meeting.overlap;
+    if constexpr (recall != Recall::nothing) block.drift.x[l] = meeting.drift.x;
+    if constexpr (recall == Recall::motion) {
+      block.drift.y[l] = meeting.drift.y;
+      block.drift.z[l] = meeting.drift.z;
+    }
   }
 }
 
@@ -137,6 +163,59 @@ template <bool spins>
 /// wait for one another in a chain so long that the processor runs dry; short laws are faster in one.
 template <class Law>
 inline constexpr bool prepares = Law::memory > 0;
+
+/// Velocities at a contact.
+struct Velocities {
+  double separating = 0.0;
+  Vec3 slip, spin;
+};
+
+/// Those at the instant of the force, from those of the last two half steps; remembers the present ones. A contact that
+/// has just begun, or was at rest, knows of none before: it has those of the last half step.
+template <class Law, BlockOptions options>
+[[gnu::always_inline]] inline Velocities velocitiesNow([[maybe_unused]] double* const* rows,
+                                                       [[maybe_unused]] std::size_t l, const Meeting& meeting,
+                                                       const Vec3& spin, [[maybe_unused]] bool begins,
+                                                       [[maybe_unused]] bool stays, [[maybe_unused]] double lead,
+                                                       [[maybe_unused]] bool remembers) {
+  [[maybe_unused]] const auto ahead = [&](double now, double before, bool known) {
+    return known ? now + lead * (now - before) : now;
+  };
+  [[maybe_unused]] const auto put = [&](std::size_t c, double now, double before) {
+    rows[c][l] = stays ? (remembers ? now : before) : 0.0;
+  };
+  const double separating = dot(meeting.normal, meeting.velocity);
+  if constexpr (options.recall == Recall::approach) {
+    const double before = rows[0][l];
+    put(0, separating + meeting.drift.x, before);
+    const double now = ahead(separating, before, begins ? false : before != 0.0);
+    return {now, meeting.velocity - separating * meeting.normal, spin};
+  } else if constexpr (options.recall == Recall::motion) {
+    const auto lookBack = [&](std::size_t c) { return Vec3{rows[c][l], rows[c + 1][l], rows[c + 2][l]}; };
+    const auto putAll = [&](std::size_t c, const Vec3& now, const Vec3& before) {
+      put(c, now.x, before.x);
+      put(c + 1, now.y, before.y);
+      put(c + 2, now.z, before.z);
+    };
+    const auto allAhead = [&](const Vec3& now, const Vec3& before, bool known) {
+      return Vec3{ahead(now.x, before.x, known), ahead(now.y, before.y, known), ahead(now.z, before.z, known)};
+    };
+    const Vec3 before = lookBack(0), drift = options.wall ? Vec3{} : meeting.drift;
+    const bool known = begins ? false : squaredNorm(before) > 0.0;
+    putAll(0, meeting.velocity + drift, before);
+    const Vec3 velocity = allAhead(meeting.velocity, before, known);
+    const double along = dot(meeting.normal, velocity);
+    Vec3 spinNow = spin;
+    if constexpr (Law::needsSpin) {
+      const Vec3 spinBefore = lookBack(3);
+      putAll(3, spin, spinBefore);
+      spinNow = allAhead(spin, spinBefore, known);
+    }
+    return {along, velocity - along * meeting.normal, spinNow};
+  } else {
+    return {separating, meeting.velocity - separating * meeting.normal, spin};
+  }
+}
 
 /// Turns remembered vectors with their contacts: numbers c, c + 1 and c + 2 of the memory.
 [[gnu::always_inline]] inline void carry(ContactBlock& block, std::size_t n, std::size_t c, double dt) {
@@ -154,6 +233,7 @@ inline constexpr bool prepares = Law::memory > 0;
 template <class Law, BlockOptions options, class Prepared>
 void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double dt) {
   constexpr auto components = std::make_index_sequence<static_cast<std::size_t>(Law::memory)>{};
+  constexpr bool recalls = options.recall != Recall::nothing;
   const Prepared single = laws[0];  // a copy nobody else can write to
   const double inverseDt = dt > 0.0 ? 1.0 / dt : 0.0;
   constexpr std::size_t parameters = sizeof(Prepared) / sizeof(double);
@@ -165,6 +245,8 @@ void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double 
       for (std::size_t c = 0; c < parameters; ++c) rows[c][l] = v[c];
     }
   const auto held = block.memory;
+  const bool remembers = block.recalls && dt > timeless;
+  const double lead = remembers ? 0.5 : 0.0;
   DOVETAIL_INDEPENDENT
   for (std::size_t l = 0; l < n; ++l) {
     Prepared law = single;
@@ -172,24 +254,57 @@ void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double 
     Contact contact;
     Meeting meeting;
     if constexpr (options.wall || prepares<Law>)
-      meeting = {block.normal.at(l), block.velocity.at(l), block.overlap[l]};
+      meeting = {block.normal.at(l), block.velocity.at(l), block.overlap[l],
+                 recalls && !options.wall ? block.drift.at(l) : Vec3{}};
     else
-      meeting = meetingOf<options.spins>(block, l);
-    const auto& [normal, velocity, overlap] = meeting;
-    if constexpr (options.spins) contact.spin = block.spinDifference.at(l);
+      meeting = meetingOf<options.spins, options.recall>(block, l, dt);
+    const auto& [normal, velocity, overlap, drift] = meeting;
+    const Vec3 spin = options.spins ? block.spinDifference.at(l) : Vec3{};
     const bool touches = overlap > -law.reach();
+    const double separating = dot(normal, velocity);
     contact.normal = normal;
-    contact.separating = dot(normal, velocity);
-    contact.overlapBefore = overlap + contact.separating * dt;
-    const double last = contact.overlapBefore > 0.0 ? contact.overlapBefore : 0.0;
-    contact.overlap = touches ? overlap : last;
-    if constexpr (Law::needsSlip) contact.slip = velocity - contact.separating * normal;
+    contact.overlap = touches ? overlap : 0.0;
+    contact.overlapBefore = overlap + separating * dt;
+    const bool begins = overlap > 0.0 ? contact.overlapBefore <= -law.normal.reach() : false;
+    const Velocities now =
+        velocitiesNow<Law, options>(held.data() + Law::memory, l, meeting, spin, begins, touches, lead, remembers);
+    contact.separating = now.separating;
+    double moving = dt;  // s, since they touched
+    if constexpr (recalls || Law::jumps || Law::memory > 0) {
+      const double left = overlap + law.reach(), goes = now.separating * dt;  // m, until they part
+      const bool ends = touches ? goes > left : false;
+      const double fraction = (begins ? overlap
+                               : ends ? left
+                                      : 1.0) /
+                              (begins ? overlap - contact.overlapBefore
+                               : ends ? goes
+                                      : 1.0);
+      moving = begins ? fraction * dt : dt;
+      if constexpr (recalls || Law::jumps) {
+        contact.first = begins;
+        contact.last = begins ? false : ends;
+        contact.fraction = fraction;
+      }
+    }
+    contact.separated = moving * separating;
+    if constexpr (Law::needsSlip) {
+      contact.slip = now.slip;
+      contact.slipped = moving * (velocity - separating * normal);
+    }
+    if constexpr (Law::needsSpin) {
+      contact.spin = now.spin;
+      contact.turned = moving * spin;
+    }
     const double scale = options.varied ? block.scale[l] : 1.0;
     contact.rootMass = block.rootMass[l];
     if constexpr (options.varied &&
                   !options.wall)  // masses carry the scale too, so it is divided out of the effective one
       contact.rootMass = scale > 0.0 ? contact.rootMass / std::sqrt(scale > 0.0 ? scale : 1.0) : 0.0;
     contact.effectiveMass = contact.rootMass * contact.rootMass;
+    if constexpr (recalls) {
+      const bool heavy = contact.effectiveMass > 0.0;
+      contact.inverseMass = heavy ? 1.0 / (heavy ? contact.effectiveMass : 1.0) : 0.0;
+    }
     contact.effectiveRadius = block.effectiveRadius[l];
     contact.dt = dt;
     contact.inverseDt = inverseDt;
@@ -198,7 +313,6 @@ void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double 
     ContactWork ended;
     if constexpr (Law::memory > 0 && options.booked) ended = law.ended(memory, inverseDt);
     const ContactResponse response = law.respond(contact, memory);
-    ended.dissipatedPower = response.dashpotAfter;
     const Vec3 force{touches ? scale * response.force.x : 0.0, touches ? scale * response.force.y : 0.0,
                      touches ? scale * response.force.z : 0.0};
     block.force.set(l, force);
@@ -222,16 +336,15 @@ void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double 
 /// Forces of the first n contacts of the block.
 template <class Law, BlockOptions options>
 void answer(ContactBlock& block, std::size_t n, const typename Law::Prepared* laws, double dt) {
-  if constexpr (!options.wall && prepares<Law>) meet<options.spins>(block, n);
+  if constexpr (!options.wall && prepares<Law>) meet<options.spins, options.recall>(block, n, dt);
   for (std::size_t c = 0; c < static_cast<std::size_t>(Law::memory); ++c)
     if ((Law::carries >> c & 1u) != 0) carry(block, n, c, dt);
-  if constexpr (!options.wall && !options.varied &&
-                !std::is_same_v<decltype(laws->withoutDashpot()), typename Law::Prepared>)
-    if (laws->sparesDashpot()) {
-      const auto lighter = laws->withoutDashpot();
-      return answerAll<Law, options>(block, n, &lighter, dt);
-    }
-  answerAll<Law, options>(block, n, laws, dt);
+  if constexpr (!options.varied && options.recall != Recall::motion) {
+    const auto lighter = laws->withoutDashpot();
+    answerAll<Law, options>(block, n, &lighter, dt);
+  } else {
+    answerAll<Law, options>(block, n, laws, dt);
+  }
 }
 
 /// Sum of the work of the first n contacts, in an order of their own: eight interleaved sums, then those.

@@ -29,7 +29,8 @@ public:
   /// Adds the pair forces to particles.f, equal and opposite (and torques, if the law exerts them and the particles
   /// spin). Bitwise the same for any number of threads. Call once per step if the law has memory.
   /// @param dt step over which memories advance, s
-  /// @throws InputError if the law has memory and dt is not finite and > 0, or naming a particle whose material has no
+  /// @throws InputError if the law has springs that remember and dt is not finite and > 0, or naming a particle whose
+  /// material has no
   ///         law
   virtual ContactWork pairs(Particles& particles, PairList& list, double dt, Booking booking) const = 0;
   /// The same for the contacts that findContacts has found; sets the wall's force and torque. Effective mass and radius
@@ -57,8 +58,9 @@ public:
   virtual void addDemand(ContactDemand& demand, const Particles& particles, const TriangulatedWall& wall,
                          const WallContacts& contacts) const = 0;
 
-  /// Pairs with their forces as the last sweep made them: nothing is changed, and memories are used as they are. Pairs
-  /// without a force are left out. In the order of the list, for any number of threads. For output, not for every step.
+  /// Pairs with their present forces: springs as the last sweep left them, dashpots at the velocities that particles
+  /// have. Nothing is changed, and memories are used as they are. Pairs without a force are left out. In the order of
+  /// the list, for any number of threads. For output, not for every step.
   /// @param list that of the last sweep, with the same particles
   /// @throws InputError if the law has memory and the list has not been through `pairs`
   virtual ContactSample sample(const Particles& particles, const PairList& list) const = 0;
@@ -66,8 +68,10 @@ public:
   /// Energy in springs of pairs that ended with the removal of a particle, J.
   virtual double held(const EndedPairs& pairs) const = 0;
 
-  /// Memory of a contact, in numbers.
+  /// Memory of a pair, in numbers, that of velocities included.
   virtual int memory() const = 0;
+  /// Those of them that springs take, the first ones; what follows are velocities of the last step.
+  virtual int springs() const = 0;
   /// Whether contacts exert torques, so that particles should spin.
   virtual bool rotates() const = 0;
   /// Distance beyond touch up to which it acts, m: the largest of the table, ∞ if every pair of the list is bonded.

@@ -38,24 +38,18 @@ struct ElasticPlastic {
       held[0] = plastic;
       const double spring = stiffness * (contact.overlap - plastic);
       const double elastic = spring < leastElastic ? leastElastic : spring;
-      const double damping = dampingPerRootMass * contact.rootMass;
-      const double whole = elastic - damping * contact.separating;
+      const double damping = dampingPerRootMass * contact.rootMass, engagement = engagementOf(contact, false);
+      const double seen = seenBy(contact, stiffness), whole = elastic - engagement * damping * seen;
       // The dashpot alone neither pulls nor deepens the pull.
       const double floor = elastic < 0.0 ? elastic : 0.0;
       const double force = whole < floor ? floor : whole;
       const double change = plastic * plastic - before * before;
-      const bool touched = contact.overlapBefore > 0.0;
-      const double springBefore = touched ? stiffness * (contact.overlapBefore - before) : 0.0;
-      const BookedDashpot booked =
-          bookedDashpot(contact, damping * contact.separating, elastic > 0.0 ? elastic : 0.0,
-                        (touched ? damping : 0.0) * contact.separating, springBefore > 0.0 ? springBefore : 0.0);
       return {.force = force,
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * elastic / stiffness,
-              .dampingFraction = touched ? 1.0 : 0.75,
-              .dashpotPower = booked.power,
-              .dashpotAfter = booked.after,
+              .engagement = engagement,
+              .dashpotPower = (elastic - force) * seen,
               .plasticPower = 0.5 * (change > 0.0 ? yield * change : -yieldCohesion * change) * contact.inverseDt};
     }
     double reach() const { return 0.0; }

@@ -23,6 +23,16 @@ struct PreparedLaws {
     for (const auto& law : table) reach = std::max(reach, law.reach());
     return reach;
   }
+  /// The most that any of them asks for: contacts of all remember alike.
+  Recall recall() const {
+    Recall most = Recall::nothing;
+    for (const auto& law : table) most = std::max(most, law.recall());
+    return most;
+  }
+  /// Numbers that a pair remembers.
+  int numbers() const { return Law::memory + Law::recalled(recall()); }
+  /// Those that a contact with a wall does. Its normal turns as the wall goes and bends, so velocities are kept whole.
+  int wallNumbers() const { return Law::memory + (recall() == Recall::nothing ? 0 : Law::recalled(Recall::motion)); }
   bool usesMass() const {
     for (const auto& law : table)
       if (law.usesMass()) return true;

@@ -5,6 +5,7 @@
 //   static constexpr int memory         numbers (doubles) that a contact remembers for it; all zero in a new contact
 //   static constexpr unsigned turns     bit c is set if number c changes its sign when the two particles change roles
 //   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
+//   Prepared::damps()                   of other than normal parts: whether it has a dashpot; may be left out
 //   prepare()                           what the loop over contacts uses; roots, logarithms and checks are done here
 //   static constexpr unsigned carries   bit c is set if numbers c, c + 1 and c + 2 are a tangential vector, which is
 //                                       turned with the contact before `respond` is asked (`carried`, contact.hpp);
@@ -19,28 +20,25 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 #include "dovetail/dem/laws/contact.hpp"
 #include "dovetail/dem/laws/slider.hpp"
 
 namespace dovetail::dem {
 
-struct BookedDashpot {
-  double power, after;  ///< see NormalResponse::dashpotPower and dashpotAfter
-};
-/// Power that a normal dashpot takes, W, booked at second order in dt.
-///
-/// A step ends in a kick that turns the velocity v₋, which the force sees, into v₊, and the dashpot takes
-/// G (v₋ + v₊)/2, G being its force. The half with v₊ is booked by the next evaluation, where v₊ is the one seen: as
-/// G′ v₊/2 if G′ did not depend on v (it had cut the force off), else, G = C v, by v₋ v₊ ≈ (v₋² + v₊²)/2 in equal parts
-/// here and there. Primes belong to the overlap one step ago.
-/// @param free, freeBefore  C n·v at the overlap now and one step ago
-/// @param most, mostBefore  what the dashpot may take off the elastic force, ∞ if it may pull
-[[gnu::always_inline]] inline BookedDashpot bookedDashpot(const Contact& contact, double free, double most,
-                                                          double freeBefore, double mostBefore) {
-  const double now = free > most ? 0.5 * most : 0.75 * free;
-  const double before = freeBefore > mostBefore ? 0.5 * mostBefore : 0.25 * freeBefore;
-  return {(now + before) * contact.separating, before * contact.separating};
+/// Velocity that the dashpot beside a spring of slope k sees, m/s: `separating` knows the acceleration of the last step
+/// only; the spring has changed it since by −(k/m) times what has closed of the overlap. (dt² k/m ≤ 4 in stable steps.)
+[[gnu::always_inline]] inline double seenBy(const Contact& contact, double stiffness) {
+  const double turned = 0.5 * stiffness * contact.inverseMass * contact.dt * contact.dt;
+  return contact.separating - (turned < 2.0 ? turned : 2.0) * contact.inverseDt * contact.separated;
+}
+/// Factor on a force that is there at once when two bodies touch, and on one that is there until they part: the kick in
+/// the step of the first touch is one for the time since touch and the half step that follows, that of the last for the
+/// half step before and the time until they part.
+[[gnu::always_inline]] inline double engagementOf(const Contact& contact, bool untilTheEnd) {
+  const bool partly = untilTheEnd ? contact.first || contact.last : contact.first;
+  return partly ? 0.5 + contact.fraction : 1.0;
 }
 
 /// Normal part: linear spring and dashpot, F = k δ + c dδ/dt (> 0 pushes apart).
@@ -85,22 +83,17 @@ struct LinearSpringDashpot {
     double elasticForce(double overlap) const { return stiffness * overlap; }
 
     [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
-      const double damping = dampingPerRootMass * contact.rootMass;
-      const double elastic = stiffness * contact.overlap;
-      const double whole = elastic - damping * contact.separating;
+      const double damping = dampingPerRootMass * contact.rootMass,
+                   engagement = engagementOf(contact, leastForce < 0.0);
+      const double elastic = stiffness * contact.overlap, seen = seenBy(contact, stiffness);
+      const double whole = elastic - engagement * damping * seen;
       const double force = whole < leastForce ? leastForce : whole;
-      const bool touched = contact.overlapBefore > -range;
-      const double before = touched ? contact.overlapBefore : 0.0;
-      const BookedDashpot booked =
-          bookedDashpot(contact, damping * contact.separating, elastic - leastForce,
-                        (touched ? damping : 0.0) * contact.separating, stiffness * before - leastForce);
       return {.force = force,
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * contact.overlap,
-              .dampingFraction = touched ? 1.0 : 0.75,
-              .dashpotPower = booked.power,
-              .dashpotAfter = booked.after};
+              .engagement = engagement,
+              .dashpotPower = (elastic - force) * seen};
     }
     /// Contacts act while overlap > −reach, m.
     double reach() const { return range; }
@@ -155,12 +148,12 @@ struct TangentialSpring {
                                                       double* held) const {
       const Vec3 old{held[0], held[1], held[2]};
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
-      const Slider<dashpot> now(old, stiffness * old, contact.slip, stiffness, dampingRatio * normal.damping,
-                                normal.dampingFraction, limit, contact);
+      const Slider<dashpot> now(old, stiffness * old, contact.slipped, contact.slip, stiffness,
+                                dampingRatio * normal.engagement * normal.damping, limit, contact.inverseDt);
       held[0] = now.stretch.x;
       held[1] = now.stretch.y;
       held[2] = now.stretch.z;
-      return {.force = -now.force, .energy = now.energy, .slipPower = now.lostPower};
+      return {.force = -now.force, .energy = now.energy, .slipPower = now.slipPower, .dashpotPower = now.dashpotPower};
     }
     Slope slope(const Contact&, const NormalResponse& normal) const {
       return {stiffness, dampingRatio * normal.damping};
@@ -168,7 +161,7 @@ struct TangentialSpring {
     double remembered(const double* held) const {
       return 0.5 * stiffness * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
-    bool hasDashpot() const { return dampingRatio > 0.0; }
+    bool damps() const { return dampingRatio > 0.0; }
     PreparedSpring<false> withoutDashpot() const { return {stiffness, friction, 0.0}; }
   };
   using Prepared = PreparedSpring<true>;
@@ -216,6 +209,14 @@ constexpr int numbersOf() {
 }
 template <class Part>
 inline constexpr int memoryOf = numbersOf<Part>();
+/// Whether a part has a dashpot, if it says so.
+template <class Prepared>
+bool dampsIn(const Prepared& part) {
+  if constexpr (requires { part.damps(); })
+    return part.damps();
+  else
+    return false;
+}
 /// Vectors that turn with the contact, if it says so.
 template <class Part>
 constexpr unsigned carriesOf() {
@@ -247,8 +248,19 @@ struct ContactLaw {
   static constexpr bool needsRadius = Normal::needsRadius || Rolling::needsRadius || Adhesion::needsRadius;
   static constexpr bool needsSlip = Tangential::needsSlip;
   static constexpr bool needsSpin = Rolling::needsSpin;
+  /// Whether forces begin or end at once.
+  static constexpr bool jumps = !std::is_same_v<Adhesion, NoAdhesion>;
   /// Whether contacts exert torques, so that particles spin.
   static constexpr bool rotates = needsSlip || needsSpin;
+
+  /// Numbers that a contact remembers behind those of the parts: n·v, or the relative velocity and spin.
+  static constexpr int recalled(Recall recall) {
+    return recall == Recall::nothing ? 0 : recall == Recall::approach ? 1 : needsSpin ? 6 : 3;
+  }
+  /// `turns` of all that is remembered.
+  static constexpr unsigned turnsWith(Recall recall) {
+    return turns | (recall == Recall::motion ? (1u << recalled(recall)) - 1u : 0u) << memory;
+  }
 
   template <class PreparedTangential>
   struct PreparedParts {
@@ -265,14 +277,12 @@ struct ContactLaw {
     }
     bool usesMass() const { return normal.usesMass(); }
 
-    /// Whether the tangential part could do without a dashpot that this law does not ask for: see withoutDashpot.
-    bool sparesDashpot() const {
-      if constexpr (requires { tangential.withoutDashpot(); })
-        return !tangential.hasDashpot();
-      else
-        return false;
+    /// What the dashpots need of the last step. Normal parts use the mass for their dashpots.
+    Recall recall() const {
+      if (detail::dampsIn(tangential) || detail::dampsIn(rolling)) return Recall::motion;
+      return usesMass() ? Recall::approach : Recall::nothing;
     }
-    /// The same answers with fewer instructions.
+    /// Where the tangential part has no dashpot: the same answers with fewer instructions.
     auto withoutDashpot() const {
       if constexpr (requires { tangential.withoutDashpot(); })
         return PreparedParts<decltype(tangential.withoutDashpot())>{normal, tangential.withoutDashpot(), rolling,
@@ -294,17 +304,15 @@ struct ContactLaw {
     ContactResponse respondWithin(const Contact& contact, double* held) const {
       const auto pull = [&](const NormalResponse& n) { return adhesion.respond(contact, n, held + touchMemory); };
       if (contact.overlap > 0.0) return combined(contact, held, pull);
-      Contact last = contact;
-      last.overlap = contact.overlapBefore > 0.0 ? contact.overlapBefore : 0.0;
+      Contact touch = contact;
+      touch.overlap = 0.0;
       double none[touchMemory + 1] = {};
       ContactResponse apart;
       apart.work = endedTouch(held, contact.inverseDt);
       for (int c = 0; c < touchMemory; ++c) held[c] = 0.0;
-      const NormalResponse n = normal.respond(last, none);
-      const AdhesionResponse a = pull(n);
+      const AdhesionResponse a = pull(normal.respond(touch, none));
       apart.force = a.force * contact.normal;
       apart.work.elasticEnergy = a.energy;
-      apart.work.dissipatedPower = n.dashpotAfter;
       return apart;
     }
 
@@ -314,24 +322,26 @@ struct ContactLaw {
       const TangentialResponse t = tangential.respond(contact, n, held + Normal::memory);
       const RollingResponse r = rolling.respond(contact, n, held + Normal::memory + Tangential::memory);
       const AdhesionResponse a = pull(n);
-      ContactResponse response{.force = (n.force + a.force) * contact.normal + t.force,
-                               .couple = r.couple,
-                               .work = {},
-                               .dashpotAfter = n.dashpotAfter};
+      ContactResponse response{.force = (n.force + a.force) * contact.normal + t.force, .couple = r.couple, .work = {}};
       response.work.elasticEnergy = n.energy + a.energy;
-      response.work.dissipatedPower = n.dashpotPower;
+      response.work.dissipatedPower = n.dashpotPower + t.dashpotPower + r.dashpotPower;
       response.work.plasticPower = n.plasticPower;
       response.work.tangentialEnergy = t.energy;
       response.work.frictionPower = t.slipPower;
       response.work.rollingEnergy = r.energy;
-      response.work.rollingPower = r.lostPower;
+      response.work.rollingPower = r.slipPower;
       return response;
     }
 
-    /// Stiffness and damping of all parts now; what is held is advanced.
+    /// Stiffness and damping of all parts now; what is held is advanced. A dashpot that sees the velocity of its own
+    /// instant, extrapolated from the half steps, weighs twice in the limit of the step: that of a mode of frequency ω
+    /// and damping ratio ζ is then (2/ω)(√(1 + 4ζ²) − 2ζ).
     ContactSlopes slopes(const Contact& contact, double* held) const {
       const NormalResponse n = normal.respond(contact, held);
-      return {{n.stiffness, n.damping}, tangential.slope(contact, n), rolling.slope(contact, n)};
+      ContactSlopes all{{n.stiffness, n.damping}, tangential.slope(contact, n), rolling.slope(contact, n)};
+      if (recall() != Recall::nothing)
+        for (Slope* const slope : {&all.normal, &all.tangential, &all.rolling}) slope->damping *= 2.0;
+      return all;
     }
 
     /// What a contact that has ended takes with it.

@@ -32,11 +32,13 @@ struct LiquidBridge {
       const double scale = std::sqrt(2.0 * contact.effectiveRadius * inverseVolume);
       const bool touches = contact.overlap > 0.0;
       const double atRupture = pull / scale * work(scale * rupture);
-      held[0] = touches || held[0] > 0.0 ? atRupture : 0.0;
+      const bool formed = held[0] > 0.0, partly = contact.last || (contact.first && !formed);
+      const double engagement = partly ? 0.5 + contact.fraction : 1.0;
+      held[0] = touches || formed ? atRupture : 0.0;
       if (!(held[0] > 0.0)) return {};
-      if (touches) return {-pull, -pull * contact.overlap};
+      if (touches) return {-engagement * pull, -pull * contact.overlap};
       const double s = -scale * contact.overlap;
-      return {-pull / (1.0 + s * (a + b * s)), pull / scale * work(s)};
+      return {-engagement * pull / (1.0 + s * (a + b * s)), pull / scale * work(s)};
     }
     double reach() const { return rupture; }
     double remembered(const double* held) const { return held[0]; }

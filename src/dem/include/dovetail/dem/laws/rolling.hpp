@@ -23,20 +23,22 @@ struct RollingResistance {
     [[gnu::always_inline]] RollingResponse respond(const Contact& contact, const NormalResponse& normal,
                                                    double* held) const {
       const Slope now = slope(contact, normal);
-      const Vec3 rate = contact.spin - dot(contact.spin, contact.normal) * contact.normal;
+      const auto across = [&](const Vec3& a) { return a - dot(a, contact.normal) * contact.normal; };
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      const Slider<> slider = slideGrowing(Vec3{held[0], held[1], held[2]}, held[3], rate, now.stiffness, now.damping,
-                                           normal.dampingFraction, limit, contact);
+      const Slider<> slider =
+          slideGrowing(Vec3{held[0], held[1], held[2]}, held[3], across(contact.turned), across(contact.spin),
+                       now.stiffness, normal.firstMean, normal.engagement * now.damping, limit, contact.inverseDt);
       held[0] = slider.stretch.x;
       held[1] = slider.stretch.y;
       held[2] = slider.stretch.z;
       held[3] = now.stiffness;
-      return {-slider.force, slider.energy, slider.lostPower};
+      return {-slider.force, slider.energy, slider.slipPower, slider.dashpotPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const double squared = contact.effectiveRadius * contact.effectiveRadius;
       return {stiffnessRatio * normal.stiffness * squared, dampingRatio * normal.damping * squared};
     }
+    bool damps() const { return dampingRatio > 0.0; }
     double remembered(const double* held) const {
       return 0.5 * held[3] * (held[0] * held[0] + held[1] * held[1] + held[2] * held[2]);
     }
@@ -61,16 +63,18 @@ struct TwistingResistance {
                                                    double* held) const {
       const Slope now = slope(contact, normal);
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
-      const auto slider = slideGrowing(held[0], held[1], dot(contact.spin, contact.normal), now.stiffness, now.damping,
-                                       normal.dampingFraction, limit, contact);
+      const auto slider =
+          slideGrowing(held[0], held[1], dot(contact.turned, contact.normal), dot(contact.spin, contact.normal),
+                       now.stiffness, normal.firstMean, normal.engagement * now.damping, limit, contact.inverseDt);
       held[0] = slider.stretch;
       held[1] = now.stiffness;
-      return {-slider.force * contact.normal, slider.energy, slider.lostPower};
+      return {-slider.force * contact.normal, slider.energy, slider.slipPower, slider.dashpotPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const double squared = contact.effectiveRadius * contact.effectiveRadius;
       return {stiffnessRatio * normal.stiffness * squared, dampingRatio * normal.damping * squared};
     }
+    bool damps() const { return dampingRatio > 0.0; }
     double remembered(const double* held) const { return 0.5 * held[1] * held[0] * held[0]; }
   };
   Prepared prepare() const { return {friction, stiffnessRatio, dampingRatio}; }
@@ -94,12 +98,13 @@ struct RollingAndTwisting {
                                                    double* held) const {
       const RollingResponse a = rolling.respond(contact, normal, held);
       const RollingResponse b = twisting.respond(contact, normal, held + RollingResistance::memory);
-      return {a.couple + b.couple, a.energy + b.energy, a.lostPower + b.lostPower};
+      return {a.couple + b.couple, a.energy + b.energy, a.slipPower + b.slipPower, a.dashpotPower + b.dashpotPower};
     }
     Slope slope(const Contact& contact, const NormalResponse& normal) const {
       const Slope a = rolling.slope(contact, normal), b = twisting.slope(contact, normal);
       return {a.stiffness > b.stiffness ? a.stiffness : b.stiffness, a.damping > b.damping ? a.damping : b.damping};
     }
+    bool damps() const { return rolling.damps() || twisting.damps(); }
     double remembered(const double* held) const {
       return rolling.remembered(held) + twisting.remembered(held + RollingResistance::memory);
     }

@@ -22,33 +22,33 @@ namespace detail {
 /// @tparam Vector   Vec3, or double for motion along or about one line
 template <bool dashpot = true, class Vector = Vec3>
 struct Slider {
-  Vector stretch, force;   ///< of the spring, and of both, along the stretch
-  double energy = 0.0;     ///< J stored
-  double lostPower = 0.0;  ///< W lost to sliding and to the dashpot, average of this step
+  Vector stretch, force;      ///< of the spring, and of both, along the stretch
+  double energy = 0.0;        ///< J stored
+  double slipPower = 0.0;     ///< W lost to sliding, average of this step
+  double dashpotPower = 0.0;  ///< W, now
 
   /// The spring alone keeps below the limit; the dashpot adds what the limit leaves. (The other way round, a dashpot
   /// above the limit would stretch the spring backwards, with energy from nowhere.)
-  /// What the dashpot takes is booked as that of the normal one (bookedDashpot); where the limit cuts it off it depends
-  /// on the velocity less, so that the step of the first touch counts nearly as any other.
   /// @param kept        stretch before this step
   /// @param forceBefore of the spring, in the last step; sliding is booked with the mean of both, as the work is done
-  /// @param rate        relative velocity
-  [[gnu::always_inline]] Slider(const Vector& kept, const Vector& forceBefore, const Vector& rate, double stiffness,
-                                double damping, double dampingFraction, double limit, const Contact& contact) {
-    const Vector stretched = kept + contact.dt * rate;
+  /// @param moved       relative displacement in this step
+  /// @param rate        relative velocity now
+  [[gnu::always_inline]] Slider(const Vector& kept, const Vector& forceBefore, const Vector& moved, const Vector& rate,
+                                double stiffness, double damping, double limit, double inverseDt) {
+    const Vector stretched = kept + moved;
     const double size = stiffness * detail::sizeOf(stretched);
     const bool slides = size > limit;
     stretch = (slides ? limit / (slides ? size : 1.0) : 1.0) * stretched;
     const Vector spring = stiffness * stretch;
     force = detail::copyOf(spring);
     energy = 0.5 * detail::scalarProduct(spring, stretch);
-    lostPower = 0.5 * detail::scalarProduct(spring + forceBefore, stretched - stretch) * contact.inverseDt;
+    slipPower = 0.5 * detail::scalarProduct(spring + forceBefore, stretched - stretch) * inverseDt;
     if constexpr (dashpot) {
       const Vector both = spring + damping * rate;
       const double whole = detail::sizeOf(both);
       const bool cut = damping > 0.0 ? whole > limit : false;
       force = (cut ? limit / (cut ? whole : 1.0) : 1.0) * both;
-      lostPower += (cut ? 0.5 + 0.5 * dampingFraction : dampingFraction) * detail::scalarProduct(force - spring, rate);
+      dashpotPower = detail::scalarProduct(force - spring, rate);
     }
   }
 };
@@ -56,19 +56,25 @@ struct Slider {
 /// A slider whose spring changes its stiffness with the normal load. No energy appears: while the stiffness grows, the
 /// force stays and the stretch shrinks; while it falls, the stretch stays and the force shrinks. What the spring loses
 /// by that counts as lost.
-/// @param old     stretch before this step, in today's contact plane
-/// @param before  stiffness in the last step
+/// While it grows, what moves in a step meets the mean stiffness of the step, of k ∝ √δ with a steady dδ/dt: the force
+/// is of second order, and no energy appears either, as the mean is not below the stiffness before.
+/// @param old        stretch before this step, in today's contact plane
+/// @param before     stiffness in the last step; 0 if they have just touched
+/// @param firstMean  see NormalResponse
 template <bool dashpot = true, class Vector>
-[[gnu::always_inline]] inline Slider<dashpot, Vector> slideGrowing(const Vector& old, double before, const Vector& rate,
-                                                                   double stiffness, double damping,
-                                                                   double dampingFraction, double limit,
-                                                                   const Contact& contact) {
+[[gnu::always_inline]] inline Slider<dashpot, Vector> slideGrowing(const Vector& old, double before,
+                                                                   const Vector& moved, const Vector& rate,
+                                                                   double stiffness, double firstMean, double damping,
+                                                                   double limit, double inverseDt) {
   const bool grows = stiffness > before;
-  const Vector kept = (grows ? before / (grows ? stiffness : 1.0) : 1.0) * old, forceBefore = before * old;
-  Slider<dashpot, Vector> now(kept, forceBefore, rate, stiffness, damping, dampingFraction, limit, contact);
+  const double perStiffness = 1.0 / (grows ? stiffness : 1.0), ratio = grows ? before * perStiffness : 1.0;
+  const double mean = before > 0.0 ? 2.0 / 3.0 * (1.0 + ratio * ratio / (1.0 + ratio)) : firstMean;
+  const Vector kept = ratio * old, forceBefore = before * old, met = (grows ? mean : 1.0) * moved;
+  Slider<dashpot, Vector> now(kept, forceBefore, met, rate, stiffness, damping, limit, inverseDt);
   const double change = 0.5 * (detail::scalarProduct(forceBefore, old - kept) +
-                               detail::scalarProduct(forceBefore - stiffness * kept, now.stretch));
-  now.lostPower += change * contact.inverseDt;
+                               detail::scalarProduct(forceBefore - stiffness * kept, now.stretch) +
+                               detail::scalarProduct(forceBefore + stiffness * now.stretch, moved - met));
+  now.slipPower += change * inverseDt;
   return now;
 }
 

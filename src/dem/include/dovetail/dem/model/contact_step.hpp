@@ -86,7 +86,7 @@ struct ContactStep : StepLimit {
   int particle = -1, partner = -1;      ///< between which it is set; partner −1: a wall
   StepOwner kind = StepOwner::contact;  ///< of the owner
   bool byOwnForces = false;             ///< set mostly by its side's own forces
-  /// s; the exact limit 2/ω (√(1 + ζ²) − ζ) of the fastest contact if it were alone and acted along its normal only.
+  /// s; the limit 2/ω (√(1 + 4ζ²) − 2ζ) of the fastest contact if it were alone and acted along its normal only.
   /// For information: with several contacts per particle it is not safe.
   double twoBody = std::numeric_limits<double>::infinity();
 };
@@ -131,7 +131,7 @@ template <class Law>
 void addPairDemand(ContactDemand& demand, const Particles& particles, const PairList& list,
                    const PreparedLaws<Law>& laws, double leastOverlap) {
   constexpr auto numbers = static_cast<std::size_t>(Law::memory);
-  const bool remembers = list.memory().size() == numbers * list.size();
+  const bool remembers = list.memory().size() == static_cast<std::size_t>(laws.numbers()) * list.size();
   const auto material = [&](std::size_t i) { return particles.material.empty() ? 0 : int{particles.material[i]}; };
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto i = static_cast<std::size_t>(list.pairs()[p][0]), j = static_cast<std::size_t>(list.pairs()[p][1]);
@@ -189,8 +189,9 @@ void addWallDemand(ContactDemand& demand, const Particles& particles, const Cont
 /// A safe step: every particle shares its mass (and inertia) among its contacts and bonds in proportion to their
 /// demand, so that one (i, j) alone has ω² = K_i/m_i + K_j/m_j and 2ζω = C_i/m_i + C_j/m_j, K and C being the sums of
 /// stiffness and damping over the contacts of a particle; the whole is no faster than its fastest part. Exact for one
-/// contact along its normal. Masses that contacts stand on share likewise. Dashpots act on the velocity of the half
-/// step, as in kick · drift · forces · kick. A contact's stiffness is the larger of its normal one and, where particles
+/// contact along its normal, and on the safe side with a dashpot. Masses that contacts stand on share likewise. In kick
+/// · drift · forces · kick dashpots act on the velocity of the half step, or on that of their own instant, where they
+/// count twice (see ContactLaw's slopes). A contact's stiffness is the larger of its normal one and, where particles
 /// spin, 7/2 of the tangential one with the rolling one over 2/5 R². Members of a clump share their body's mass and
 /// inertia. Take 0.2 of it or less for accuracy.
 ///

@@ -94,6 +94,9 @@ public:
   virtual void meanMotion(const Model&, const Step&, std::span<Vec3> /*v*/, std::span<Vec3> /*omega*/) const {}
   /// kick(dt/2): the end of the step.
   virtual void close(Model&, double /*dt*/) {}
+  /// Its contacts forget how they moved in the last step: see forgetVelocities(Model&).
+  /// @param springs  numbers of what a contact remembers that stay, the first ones
+  virtual void forgetVelocities(int /*springs*/) {}
 
   virtual void addDemand(const Model&, ContactDemand&) const {}
   /// Partners of particles in impacts (see impactLimit).

@@ -27,6 +27,9 @@ public:
   double renumber(std::span<const int> newNumber, const Particles& before) override;
   void addForces(Model& m, const Step& step) override;
   void close(Model& m, double dt) override;
+  void forgetVelocities(int springs) override {
+    detail::forgetVelocities(wall.contacts.memory, wall.contacts.size(), springs);
+  }
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addPartners(const Model& m, std::vector<ImpactPartner>& partners) const override;
   void addEnergies(const Model& m, Energies& e) const override;
@@ -55,6 +58,7 @@ public:
   void takeFacetContacts(Model& m, const Step& step, std::vector<AnsweredContacts>& walls) override;
   void addForces(Model& m, const Step& step) override;
   void close(Model& m, double dt) override;
+  void forgetVelocities(int springs) override { dem::forgetVelocities(mesh.contacts, springs); }
   void addDemand(const Model& m, ContactDemand& demand) const override;
   void addPartners(const Model& m, std::vector<ImpactPartner>& partners) const override;
   void addEnergies(const Model& m, Energies& e) const override;

@@ -82,15 +82,16 @@ Contact atRest(const EndedPair& pair);
 /// normal springs' energy, which counts as fracture, and have lost nothing else yet.
 template <class Law>
 ContactWork endedWork(const EndedPairs& left, const PreparedLaws<Law>& laws) {
-  constexpr auto numbers = static_cast<std::size_t>(Law::memory);
+  constexpr auto own = static_cast<std::size_t>(Law::memory);
+  const auto numbers = static_cast<std::size_t>(laws.numbers());
   ContactWork work;
   if (left.memory.size() != numbers * left.pairs.size()) return work;
   for (std::size_t k = 0; k < left.pairs.size(); ++k) {
     const EndedPair& pair = left.pairs[k];
     if (std::max(pair.materials[0], pair.materials[1]) >= laws.materials && laws.materials > 1) continue;
     const auto& law = laws.materials == 1 ? laws.table[0] : laws.at(pair.materials[0], pair.materials[1]);
-    double memory[numbers + 1] = {};
-    std::copy_n(left.memory.data() + k * numbers, numbers, memory);
+    double memory[own + 1] = {};
+    std::copy_n(left.memory.data() + k * numbers, own, memory);
     ContactWork ended = law.ended(memory, 1.0);
     if (pair.overlap > -law.reach()) {
       ended.fracturePower = law.respond(atRest(pair), memory).work.elasticEnergy;
@@ -125,6 +126,8 @@ template <class Law, BlockOptions options>
 ContactWork collideChunk(Particles& particles, PairParts& list, std::size_t chunk, const PairRows& rows,
                          const typename Law::Prepared* laws, double dt) {
   ContactBlock block;
+  ContactBlock::Row none{};
+  block.recall(Law::memory, Law::recalled(options.recall), rows.memory > Law::memory, none);
   shareSizes(particles, rows, block);
   ContactWork work;
   PairCursor cursor = startOfChunk(particles, list, rows, chunk);
@@ -148,36 +151,51 @@ ContactWork collideChunks(Particles& particles, PairParts& list, const PairRows&
   return work;
 }
 
+template <class Law, bool varied, Recall recall>
+ContactWork collideBooked(Particles& particles, PairParts& list, const PairRows& rows,
+                          const typename Law::Prepared* laws, double dt, Booking booking) {
+  constexpr BlockOptions quiet{Law::rotates, false, varied, false, recall},
+      booked{Law::rotates, false, varied, true, recall};
+  if (booking == Booking::on) return collideChunks<Law, booked>(particles, list, rows, laws, dt);
+  collideChunks<Law, quiet>(particles, list, rows, laws, dt);
+  return {};
+}
+
+/// With what contacts remember known.
+template <class Law>
+ContactWork collideRecalled(Particles& particles, PairParts& list, const PairRows& rows,
+                            const typename Law::Prepared* laws, double dt, Booking booking, Recall recall) {
+  if constexpr (Law::rotates)
+    if (recall == Recall::motion)
+      return rows.varied ? collideBooked<Law, true, Recall::motion>(particles, list, rows, laws, dt, booking)
+                         : collideBooked<Law, false, Recall::motion>(particles, list, rows, laws, dt, booking);
+  if (rows.varied) return collideBooked<Law, true, Recall::approach>(particles, list, rows, laws, dt, booking);
+  if (recall == Recall::approach)
+    return collideBooked<Law, false, Recall::approach>(particles, list, rows, laws, dt, booking);
+  return collideBooked<Law, false, Recall::nothing>(particles, list, rows, laws, dt, booking);
+}
+
 /// ContactLaws::pairs, with the law known.
 template <class Law>
 ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt, Booking booking) {
-  ContactWork work;
-  if constexpr (Law::memory > 0) {
-    requireStep(dt);
-    list.prepareMemory(Law::memory, Law::turns);
-  }
+  if constexpr (Law::memory > 0) requireStep(dt);
+  const Recall recall = laws.recall();
+  const int numbers = laws.numbers();
+  if (numbers > 0) list.prepareMemory(numbers, Law::turnsWith(recall));
   PairParts& parts = partsOf(list);
   PairRows rows{.spins = Law::rotates,
                 .rolls = Law::needsSpin,
                 .mass = Law::needsMass && laws.usesMass(),
                 .radius = Law::needsRadius,
-                .memory = Law::memory,
+                .memory = numbers,
                 .materials = laws.materials,
                 .velocities = seesVelocities(laws)};
   findUniform(particles, rows);
   rows.varied = !parts.factors.empty() || rows.material < 0;
   const auto* const table = rows.varied ? laws.table.data() : &laws.at(rows.material, rows.material);
-  constexpr bool spins = Law::rotates;
-  if constexpr (spins) parts.chunks.torque.resize(parts.chunks.force.size());
+  if constexpr (Law::rotates) parts.chunks.torque.resize(parts.chunks.force.size());
+  ContactWork work = collideRecalled<Law>(particles, parts, rows, table, dt, booking, recall);
   const bool booked = booking == Booking::on;
-  if (rows.varied && booked)
-    work += collideChunks<Law, BlockOptions{spins, false, true, true}>(particles, parts, rows, table, dt);
-  else if (rows.varied)
-    collideChunks<Law, BlockOptions{spins, false, true, false}>(particles, parts, rows, table, dt);
-  else if (booked)
-    work += collideChunks<Law, BlockOptions{spins, false, false, true}>(particles, parts, rows, table, dt);
-  else
-    collideChunks<Law, BlockOptions{spins, false, false, false}>(particles, parts, rows, table, dt);
   const EndedPairs left = list.takeEnded();
   if (booked && dt > 0.0) work += bookEnded(left, laws, dt);
   return work;

@@ -37,6 +37,9 @@ RelaxationReport relax(Model& m, const RestCriterion& rest = {}, const Relaxatio
 double kineticEnergy(const Model& m);
 /// Sets the velocities and spins of all these to zero.
 void stop(Model& m);
+/// Contacts of pairs and walls forget how they moved in the last step: to be called when velocities were changed by
+/// other than forces, which dashpots would take for acceleration.
+void forgetVelocities(Model& m);
 
 /// Mean force on a particle over the mean contact force, and the rattlers, of the present model, whose forces must have
 /// been found. Contacts with walls count. Infinite where there are forces and no contacts.

@@ -156,10 +156,10 @@ ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaw
   ContactWork work;
   contacts.force.resize(contacts.size());
   if constexpr (Law::rotates) contacts.couple.resize(contacts.size());
-  if constexpr (Law::memory > 0) {
-    requireStep(dt);
-    const EndedMemories ended = carryMemory(particles, contacts, Law::memory);
-    if (booking == Booking::on) work += bookEnded<Law>(ended, laws, wall.material, dt);
+  if constexpr (Law::memory > 0) requireStep(dt);
+  if (const int numbers = laws.wallNumbers(); numbers > 0) {
+    const EndedMemories ended = carryMemory(particles, contacts, numbers);
+    if (booking == Booking::on && dt > 0.0) work += bookEnded<Law>(ended, laws, wall.material, dt);
   } else {
     contacts.memory.clear();  // of a law that was there before
   }

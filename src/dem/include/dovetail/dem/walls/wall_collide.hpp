@@ -39,10 +39,10 @@ template <class Law>
 ContactWork collide(Particles& particles, const TriangulatedWall& wall, WallContacts& contacts,
                     const PreparedLaws<Law>& laws, double dt, Booking booking) {
   ContactWork work;
-  if constexpr (Law::memory > 0) {
-    requireStep(dt);
-    const EndedMemories ended = carrySprings(particles, contacts, Law::memory);
-    if (booking == Booking::on) work += bookEnded<Law>(ended, laws, wall.material, dt);
+  if constexpr (Law::memory > 0) requireStep(dt);
+  if (const int numbers = laws.wallNumbers(); numbers > 0) {
+    const EndedMemories ended = carrySprings(particles, contacts, numbers);
+    if (booking == Booking::on && dt > 0.0) work += bookEnded<Law>(ended, laws, wall.material, dt);
   } else {
     contacts.springs = {};  // of a law that was there before
   }
@@ -51,7 +51,7 @@ ContactWork collide(Particles& particles, const TriangulatedWall& wall, WallCont
   work += answerWall<Law>(particles, contacts, contacts.springs.next, laws, {wall.material, wall.mass}, dt, booking,
                           AgainstFacets{particles, wall, contacts, spins});
   addToParticles(particles, wall, contacts, spins);
-  if constexpr (Law::memory > 0) keepSprings(contacts);
+  if (laws.wallNumbers() > 0) keepSprings(contacts);
   return work;
 }
 

@@ -159,10 +159,17 @@ double energyOfLeavers(Contacts& contacts, std::span<const int> newNumber) {
 /// Contacts with memory of another size, as of a previous law, start anew.
 /// @param memory numbers per contact
 void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered);
+/// Sets what contacts remember behind their springs to zero.
+void forgetVelocities(std::vector<double>& memory, std::size_t contacts, int springs);
 /// Stores the memory of a contact that has ended. @param fraction  of the contact, or what it has less of it now
 void addEnded(EndedMemories& ended, const Particles& particles, int particle, const std::vector<double>& memory,
               std::size_t contact, std::size_t components, double fraction);
 }  // namespace detail
+
+/// The contacts forget how they moved in the last step. @param springs  numbers of their memory that stay
+inline void forgetVelocities(WallContacts& contacts, int springs) {
+  detail::forgetVelocities(contacts.springs.memory, contacts.springs.particle.size(), springs);
+}
 
 /// The reaction on the wall, N: f[vertex] −= weight × force for all contacts, and couples as forces on the vertices of
 /// their facet (see FacetSpin), so that force, moment and power balance.

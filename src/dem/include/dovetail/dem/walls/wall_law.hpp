@@ -38,7 +38,7 @@ inline int materialOf(const Particles& particles, std::size_t i) {
 /// What ended contacts take with them.
 template <class Law>
 ContactWork bookEnded(const EndedMemories& ended, const PreparedLaws<Law>& laws, int wallMaterial, double dt) {
-  constexpr auto numbers = static_cast<std::size_t>(Law::memory);
+  const auto numbers = static_cast<std::size_t>(laws.wallNumbers());
   ContactWork work;
   if (ended.memory.size() != numbers * ended.material.size()) return work;  // of another law
   const bool several = laws.materials > 1;
@@ -64,10 +64,11 @@ struct WallSide {
 };
 
 /// Contacts first … first + n − 1 into a block.
+/// @param numbers  of memory per contact
 template <class Law, class Contacts, class Motion>
 void gatherWall(const Particles& particles, const Contacts& contacts, const std::vector<double>& memory,
-                const PreparedLaws<Law>& laws, const WallSide& wall, std::size_t first, std::size_t n,
-                const Motion& motion, ContactBlock& block) {
+                std::size_t numbers, const PreparedLaws<Law>& laws, const WallSide& wall, std::size_t first,
+                std::size_t n, const Motion& motion, ContactBlock& block) {
   for (std::size_t l = 0; l < n; ++l) {
     const std::size_t c = first + l;
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
@@ -85,27 +86,31 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
       block.spinSum.set(l, spin + wallSpin);
       block.spinDifference.set(l, spin - wallSpin);
     }
-    for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m][l] = memory[c * Law::memory + m];
+    for (std::size_t m = 0; m < numbers; ++m) block.memory[m][l] = memory[c * numbers + m];
   }
 }
 
 /// Sets contacts.force (and couple, if the law has torques) and advances the memories.
 /// @param contacts  arrays particle, normal, force, couple, energy; fractionOf(contacts, c)
-/// @param memory    Law::memory numbers per contact
+/// @param memory    laws.wallNumbers() numbers per contact
 /// @param booking   off: returns nothing but zeros
 /// @param motion    velocity(c): of the particle relative to the wall at contact c, m/s; spin(c): of the wall there
 template <class Law, class Contacts, class Motion>
 ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vector<double>& memory,
                        const PreparedLaws<Law>& laws, const WallSide& wall, double dt, Booking booking,
                        const Motion& motion) {
-  constexpr BlockOptions quiet{.spins = Law::rotates, .wall = true, .varied = true, .booked = false};
-  constexpr BlockOptions booked{.spins = Law::rotates, .wall = true, .varied = true, .booked = true};
+  constexpr BlockOptions quiet{Law::rotates, true, true, false, Recall::motion};
+  constexpr BlockOptions booked{Law::rotates, true, true, true, Recall::motion};
+  constexpr int recalled = Law::recalled(Recall::motion);
+  const auto numbers = static_cast<std::size_t>(laws.wallNumbers());
   const auto answerBlock = [&](std::size_t first, std::size_t end) {
     ContactBlock block;
-    std::array<ContactBlock::Row, Law::memory + 1> held;
-    for (std::size_t m = 0; m < Law::memory; ++m) block.memory[m] = held[m].data();
+    std::array<ContactBlock::Row, Law::memory + recalled> held;
+    ContactBlock::Row none{};
+    for (std::size_t m = 0; m < numbers; ++m) block.memory[m] = held[m].data();
+    block.recall(Law::memory, recalled, numbers > Law::memory, none);
     const std::size_t n = end - first;
-    gatherWall<Law>(particles, contacts, memory, laws, wall, first, n, motion, block);
+    gatherWall<Law>(particles, contacts, memory, numbers, laws, wall, first, n, motion, block);
     if (booking == Booking::on)
       answer<Law, booked>(block, n, laws.table.data(), dt);
     else
@@ -113,7 +118,7 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
     for (std::size_t l = 0; l < n; ++l) {
       contacts.force[first + l] = block.force.at(l);
       if constexpr (Law::rotates) contacts.couple[first + l] = block.couple.at(l);
-      for (std::size_t m = 0; m < Law::memory; ++m) memory[(first + l) * Law::memory + m] = block.memory[m][l];
+      for (std::size_t m = 0; m < numbers; ++m) memory[(first + l) * numbers + m] = block.memory[m][l];
       contacts.energy[first + l] = booking == Booking::on ? block.work[0][l] : 0.0;
       if constexpr (Law::memory > 0)
         contacts.sideEnergy[first + l] = booking == Booking::on ? block.work[2][l] + block.work[4][l] : 0.0;
