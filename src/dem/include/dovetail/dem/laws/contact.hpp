@@ -28,7 +28,7 @@ struct Contact {
   Vec3 slipped;                  ///< tangential displacement in this step, while they touched, m
   Vec3 turned;                   ///< relative rotation in this step, while they touched, rad
   bool first = false;            ///< they have come to touch in this step
-  bool last = false;             ///< they will part, or the law's reach will end, in the next step
+  bool last = false;             ///< they will part, or leave the law's reach, in the next step
   double fraction = 1.0;         ///< of the step, since they touched or until they part; 1 in all other steps
   double dt = 0.0;               ///< step over which memories advance, s
   double inverseDt = 0.0;        ///< 1/dt, 1/s

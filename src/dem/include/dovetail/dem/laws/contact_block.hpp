@@ -178,8 +178,10 @@ template <class Law, BlockOptions options>
                                                        const Vec3& spin, [[maybe_unused]] bool begins,
                                                        [[maybe_unused]] bool stays, [[maybe_unused]] double lead,
                                                        [[maybe_unused]] bool remembers) {
-  [[maybe_unused]] const auto ahead = [&](double now, double before, bool known) {
-    return known ? now + lead * (now - before) : now;
+  // One selection after the other: the loop would not vectorise with what selects between conditions.
+  [[maybe_unused]] const auto ahead = [&](double now, double before, double known) {
+    const double carriedOn = known != 0.0 ? now + lead * (now - before) : now;
+    return begins ? now : carriedOn;
   };
   [[maybe_unused]] const auto put = [&](std::size_t c, double now, double before) {
     rows[c][l] = stays ? (remembers ? now : before) : 0.0;
@@ -188,7 +190,7 @@ template <class Law, BlockOptions options>
   if constexpr (options.recall == Recall::approach) {
     const double before = rows[0][l];
     put(0, separating + meeting.drift.x, before);
-    const double now = ahead(separating, before, begins ? false : before != 0.0);
+    const double now = ahead(separating, before, before);
     return {now, meeting.velocity - separating * meeting.normal, spin};
   } else if constexpr (options.recall == Recall::motion) {
     const auto lookBack = [&](std::size_t c) { return Vec3{rows[c][l], rows[c + 1][l], rows[c + 2][l]}; };
@@ -197,11 +199,11 @@ template <class Law, BlockOptions options>
       put(c + 1, now.y, before.y);
       put(c + 2, now.z, before.z);
     };
-    const auto allAhead = [&](const Vec3& now, const Vec3& before, bool known) {
+    const auto allAhead = [&](const Vec3& now, const Vec3& before, double known) {
       return Vec3{ahead(now.x, before.x, known), ahead(now.y, before.y, known), ahead(now.z, before.z, known)};
     };
     const Vec3 before = lookBack(0), drift = options.wall ? Vec3{} : meeting.drift;
-    const bool known = begins ? false : squaredNorm(before) > 0.0;
+    const double known = squaredNorm(before);
     putAll(0, meeting.velocity + drift, before);
     const Vec3 velocity = allAhead(meeting.velocity, before, known);
     const double along = dot(meeting.normal, velocity);
@@ -265,24 +267,21 @@ void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double 
     contact.normal = normal;
     contact.overlap = touches ? overlap : 0.0;
     contact.overlapBefore = overlap + separating * dt;
-    const bool begins = overlap > 0.0 ? contact.overlapBefore <= -law.normal.reach() : false;
+    const bool begins = contact.overlapBefore <= -law.normal.reach();  // if it touches
     const Velocities now =
         velocitiesNow<Law, options>(held.data() + Law::memory, l, meeting, spin, begins, touches, lead, remembers);
     contact.separating = now.separating;
     double moving = dt;  // s, since they touched
     if constexpr (recalls || Law::jumps || Law::memory > 0) {
       const double left = overlap + law.reach(), goes = now.separating * dt;  // m, until they part
-      const bool ends = touches ? goes > left : false;
-      const double fraction = (begins ? overlap
-                               : ends ? left
-                                      : 1.0) /
-                              (begins ? overlap - contact.overlapBefore
-                               : ends ? goes
-                                      : 1.0);
-      moving = begins ? fraction * dt : dt;
+      const bool ends = goes > left;
+      const double later = ends ? left : 1.0, top = begins ? overlap : later;
+      const double away = ends ? goes : 1.0, bottom = begins ? overlap - contact.overlapBefore : away;
+      const double fraction = top / bottom, part = fraction * dt;
+      moving = begins ? part : dt;
       if constexpr (recalls || Law::jumps) {
         contact.first = begins;
-        contact.last = begins ? false : ends;
+        contact.last = ends;
         contact.fraction = fraction;
       }
     }

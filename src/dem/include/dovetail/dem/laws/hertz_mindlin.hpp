@@ -50,10 +50,11 @@ struct HertzDashpot {
     /// As engagementOf, for damping that grows from touch as t^¼: what the sum over steps lacks of the integral is
     /// ζ(−¼, θ), Hurwitz's zeta function (Navot, J. Math. Phys. 40, 1961), so this is −ζ(−¼, 1 + θ)/θ^¼, to 2e-4.
     [[gnu::always_inline]] static double rootEngagementOf(const Contact& contact, bool untilTheEnd) {
-      const bool partly = untilTheEnd ? contact.first || contact.last : contact.first;
-      const double t = contact.fraction;
+      const double t = contact.fraction > 1e-12 ? contact.fraction : 1e-12;
       const double sum = 0.32027438 + t * (0.8641871 + t * (0.16402912 - t * 0.02817562));
-      return partly ? sum / std::sqrt(std::sqrt(t > 1e-12 ? t : 1e-12)) : 1.0;
+      const double part = sum / std::sqrt(std::sqrt(t)), late = contact.last ? part : 1.0;
+      const double until = untilTheEnd ? late : 1.0;
+      return contact.first ? part : until;
     }
     double reach() const { return 0.0; }
     bool usesMass() const { return dampingFactor > 0.0; }

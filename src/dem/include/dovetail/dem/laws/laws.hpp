@@ -37,8 +37,8 @@ namespace dovetail::dem {
 /// the step of the first touch is one for the time since touch and the half step that follows, that of the last for the
 /// half step before and the time until they part.
 [[gnu::always_inline]] inline double engagementOf(const Contact& contact, bool untilTheEnd) {
-  const bool partly = untilTheEnd ? contact.first || contact.last : contact.first;
-  return partly ? 0.5 + contact.fraction : 1.0;
+  const double part = 0.5 + contact.fraction, late = contact.last ? part : 1.0, until = untilTheEnd ? late : 1.0;
+  return contact.first ? part : until;
 }
 
 /// Normal part: linear spring and dashpot, F = k δ + c dδ/dt (> 0 pushes apart).
