@@ -29,13 +29,12 @@ void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows&
     const double bx = at.branch[0][m], by = at.branch[1][m];
     const double d = std::sqrt(at.squared[m]), inverse = 1.0 / d, nx = bx * inverse, ny = by * inverse;
     const double overlap = r.radiusI[m] + r.radiusJ[m] - d, k = r.stiffness[m], normalForce = k * overlap;
-    double tangentialForce = 0.0, moment = 0.0, slipped = 0.0, moving = law.dt;
+    double tangentialForce = 0.0, moment = 0.0, slipped = 0.0;
     const double armI = 0.5 * (d + r.radiusI[m] - r.radiusJ[m]), armJ = d - armI;
     if constexpr (slides) {
       const double wx = r.speedX[m] + law.xx * bx + law.xy * by, wy = r.speedY[m] + law.xy * bx + law.yy * by;
       const double kt = law.ratio * k, slip = wy * nx - wx * ny - armI * r.spinI[m] - armJ * r.spinJ[m];
-      moving = touchTime(overlap, wx * nx + wy * ny, law.dt);
-      const dem::Slider<false, double> now(r.stretch[m], kt * r.stretch[m], moving * slip, slip, kt, 0.0,
+      const dem::Slider<false, double> now(r.stretch[m], kt * r.stretch[m], law.dt * slip, slip, kt, 0.0,
                                            law.friction * normalForce, inJoule);
       tangentialForce = now.force;
       slipped = now.slipPower;
@@ -45,7 +44,7 @@ void applyLaw(const DiscLaw law, const TouchingRows<2>& __restrict at, DiscRows&
       const double least = r.radiusI[m] < r.radiusJ[m] ? r.radiusI[m] : r.radiusJ[m];
       const double kr = law.rolling * law.ratio * k * r.radiusI[m] * r.radiusJ[m];
       const double spin = r.spinI[m] - r.spinJ[m];
-      const dem::Slider<false, double> now(r.roll[m], kr * r.roll[m], moving * spin, spin, kr, 0.0,
+      const dem::Slider<false, double> now(r.roll[m], kr * r.roll[m], law.dt * spin, spin, kr, 0.0,
                                            law.rollingLimit * least * normalForce, inJoule);
       moment = now.force;
       slipped += now.slipPower;

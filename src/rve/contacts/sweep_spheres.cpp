@@ -46,12 +46,11 @@ void applyLaw(const SphereLaw law, const TouchingRows<3>& __restrict at, SphereR
       const Vec3 spinI = vectorAt(r.spinI, m), spinJ = vectorAt(r.spinJ, m);
       const Vec3 w = vectorAt(r.speed, m) + product(law.rate, b) - cross(armI * spinI + armJ * spinJ, n);
       const double twist = law.dt * dot(0.5 * (spinI + spinJ), n);
-      const double separating = dot(w, n), moving = touchTime(overlap, separating, law.dt);
-      const Vec3 old = dem::carried(product(law.turn, vectorAt(r.stretch, m)), n, twist), slip = w - separating * n;
+      const Vec3 old = dem::carried(product(law.turn, vectorAt(r.stretch, m)), n, twist), slip = w - dot(w, n) * n;
       const double kt = law.ratio * k, limit = law.friction * normalForce;
       const dem::Slider<false> now =
-          elastic ? dem::slideGrowing<false>(old, r.tangent[m], moving * slip, slip, kt, firstMean, 0.0, limit, inJoule)
-                  : dem::Slider<false>(old, kt * old, moving * slip, slip, kt, 0.0, limit, inJoule);
+          elastic ? dem::slideGrowing<false>(old, r.tangent[m], law.dt * slip, slip, kt, firstMean, 0.0, limit, inJoule)
+                  : dem::Slider<false>(old, kt * old, law.dt * slip, slip, kt, 0.0, limit, inJoule);
       if constexpr (elastic) r.tangent[m] = kt;
       r.slipped[m] = now.slipPower;
       setVector(r.stretch, m, now.stretch);

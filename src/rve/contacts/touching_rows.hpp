@@ -26,13 +26,6 @@ using Row = double[rowLength];
   rows[2][m] = a.z;
 }
 
-/// How long two have touched in a step of dt, s, as dem's laws have it: all of it, unless they came together in it.
-[[gnu::always_inline]] inline double touchTime(double overlap, double separating, double dt) {
-  const double before = overlap + separating * dt;
-  const bool first = before <= 0.0;
-  return (first ? overlap / (first ? overlap - before : 1.0) : 1.0) * dt;
-}
-
 /// Who touches, and branches. Behind the last contact it is repeated until all lanes are full.
 template <int dimension>
 struct TouchingRows {

@@ -267,7 +267,9 @@ void answerAll(ContactBlock& block, std::size_t n, const Prepared* laws, double 
     contact.normal = normal;
     contact.overlap = touches ? overlap : 0.0;
     contact.overlapBefore = overlap + separating * dt;
-    const bool begins = contact.overlapBefore <= -law.normal.reach();  // if it touches
+    const double before =
+        overlap > 0.0 ? contact.overlapBefore : 1.0;  // where parts act beyond touch it is no first one
+    const bool begins = before <= -law.normal.reach();
     const Velocities now =
         velocitiesNow<Law, options>(held.data() + Law::memory, l, meeting, spin, begins, touches, lead, remembers);
     contact.separating = now.separating;
