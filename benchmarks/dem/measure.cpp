@@ -27,7 +27,8 @@ double bytesMovedPerStep(const dem::Particles& p, const dem::PairList& l, bool m
   const double move = both * vector * (3.0 + 2.0 * spins) + 8.0 * (1.0 + spins);
   // x, v (and ω) read, f (and torque) read and written.
   const double collide = vector * (2.0 + spins) + both * vector * (1.0 + spins) + sizes;
-  const double perPair = 8.0 + both * 8.0 * (l.size() == 0 ? 0.0 : static_cast<double>(l.memory().size()) / pairs);
+  const double held = 8.0 * static_cast<double>(l.memory().size() + l.motion().size());
+  const double perPair = 8.0 + both * (l.size() == 0 ? 0.0 : held / pairs);
   return n * (move + collide) + pairs * perPair;
 }
 

@@ -37,7 +37,7 @@ Figures timeScene(const Settings& s, const std::string& name) {
     return measure(name, model, timeStep, s.warmUp, s.steps, s.repeats, 50);
   }
   auto model = drumModel(repeated(readScene(s, "drum.txt"), s.copies, drumWidth, 2), drumWidth * s.copies);
-  return measure(name, model, timeStep, s.warmUp, s.steps, s.repeats);
+  return measure(name, model, drumStep, s.warmUp, s.steps, s.repeats);
 }
 
 }  // namespace

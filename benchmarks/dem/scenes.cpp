@@ -213,7 +213,7 @@ Spheres flowingDrum() {
         spheres.diameter.push_back(1.0);
       }
   auto model = drumModel(spheres, drumWidth);
-  run(model, timeStep, 30000);
+  run(model, drumStep, 37500);
   wrapPositions(model.particles, model.pairs.periodicity());
   spheres.x = model.particles.x;
   spheres.v = model.particles.v;

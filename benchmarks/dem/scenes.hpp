@@ -39,6 +39,7 @@ Spheres bigAmongSmall(double edge, int bigOnes, double bigDiameter, unsigned see
 
 inline constexpr double stiffness = 2000.0, timeStep = 1e-3, listSkin = 0.1;
 inline constexpr double drumRadius = 38.0, drumWidth = 8.0, drumSpeed = 0.05;  ///< m, m, rad/s
+inline constexpr double drumStep = 8e-4;  ///< s: below the limit of grains with many damped contacts
 
 /// Laws of the bed: k, k_t = 2/7 k, μ = 0.5, and dashpots as γ_n = 50/s, γ_t = 25/s per effective mass.
 dem::FrictionalLaw frictionalLaw();

@@ -25,13 +25,12 @@ struct Stiffening {
       const double squared = perSquare * contact.overlap * contact.overlap;
       const double spring = stiffness * contact.overlap * (1.0 + squared);
       const double slope = stiffness * (1.0 + 3.0 * squared), damping = dampingPerRootMass * contact.rootMass;
-      const double seen = seenBy(contact, slope), engagement = engagementOf(contact, false);
-      const double dashpot = engagement * damping * seen, force = spring > dashpot ? spring - dashpot : 0.0;
+      const double seen = seenBy(contact, slope), dashpot = contact.engagement * damping * seen;
+      const double force = spring > dashpot ? spring - dashpot : 0.0;
       return {.force = force,
               .stiffness = slope,
               .damping = damping,
               .energy = 0.5 * stiffness * contact.overlap * contact.overlap * (1.0 + 0.5 * squared),
-              .engagement = engagement,
               .dashpotPower = (spring - force) * seen};
     }
     double reach() const { return 0.0; }

@@ -194,11 +194,11 @@ void CalledLaws::addDemand(dem::ContactDemand& demand, const dem::Particles& par
 
 dem::ContactSample CalledLaws::sample(const dem::Particles& particles, const dem::PairList& list) const {
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
-  dem::detail::requireMemory(list, law_.numbers());
+  dem::detail::requireMemory(list, law_.kept());
   dem::ContactSample all;
   if (list.size() == 0) return all;
   dem::detail::PairsApart apart(list.size());
-  apart.take(particles, list, 0, law_.numbers());
+  apart.take(particles, list, 0, law_.kept());
   for (std::size_t k = 0; k < list.size(); ++k)
     for (std::size_t side = 0; side < 2; ++side)
       apart.particles.id[2 * k + side] = particles.id[static_cast<std::size_t>(list.pairs()[k][side])];

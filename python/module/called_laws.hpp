@@ -53,8 +53,7 @@ public:
   dem::ContactSample sample(const dem::Particles& particles, const dem::PairList& list) const override;
   double held(const dem::EndedPairs& pairs) const override { return energyOf(law_, pairs).lostPower(); }
 
-  int memory() const override { return law_.numbers(); }
-  int springs() const override { return law_.kept(); }
+  int memory() const override { return law_.kept(); }
   bool rotates() const override { return law_.rotates; }
   double reach() const override { return law_.reach; }
   int materials() const override { return 1; }

@@ -44,7 +44,6 @@ public:
   }
   double held(const dem::EndedPairs& pairs) const override { return laws_->held(pairs); }
   int memory() const override { return laws_->memory(); }
-  int springs() const override { return laws_->springs(); }
   bool rotates() const override { return laws_->rotates(); }
   double reach() const override { return laws_->reach(); }
   int materials() const override { return laws_->materials(); }

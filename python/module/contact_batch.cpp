@@ -13,7 +13,6 @@ using dem::detail::blockSize, dem::detail::ContactBlock, dem::detail::PairCursor
 unsigned LawTraits::turns() const {
   unsigned bits = 0;
   for (const int c : vectors) bits |= 0b111u << c;
-  if (damps) bits |= 0b111111u << kept();
   return bits;
 }
 
@@ -30,38 +29,46 @@ namespace {
 
 bool isFelt(const LawTraits& law, double overlap, double scale) { return overlap > -law.reach && scale > 0.0; }
 
-/// For velocitiesNow: velocity and spin are remembered.
-struct Moving {
-  static constexpr bool needsSpin = true;
+/// For the passes over contacts: how far the law reaches, m.
+struct Reach {
+  double range = 0.0;
+  double reach() const { return range; }
+};
+struct LawReach : Reach {
+  Reach normal;
+  const LawReach& at(std::size_t) const { return *this; }
 };
 
-/// Appends what a law is given of a contact, in the order of the columns; what it remembers of velocities moves on.
+template <bool rolls>
+struct Traits {
+  static constexpr bool needsSpin = rolls, jumps = true;
+};
+
+/// Velocities at the instant of the force, and what counts of the step; what is remembered of velocities moves on.
 template <bool wall>
-void appendRow(const LawTraits& law, ContactBlock& block, std::size_t l, double rootMass, double dt,
+void lookAhead(const LawTraits& law, ContactBlock& block, std::size_t n, double dt) {
+  constexpr dem::detail::BlockOptions options{true, wall, true, true, dem::Recall::motion};
+  const LawReach laws{{law.reach}, {}};
+  const bool kinks = law.rotates ? dem::detail::lookAhead<Traits<true>, options>(block, n, laws, dt)
+                                 : dem::detail::lookAhead<Traits<false>, options>(block, n, laws, dt);
+  if (kinks) dem::detail::engage<Traits<true>>(block, n, laws, dt);
+}
+
+/// Appends what a law is given of a contact, in the order of the columns.
+void appendRow(const LawTraits& law, const ContactBlock& block, std::size_t l, double rootMass, double dt,
                std::vector<double>& rows) {
   const Vec3 normal = block.normal.at(l), velocity = block.velocity.at(l);
-  const Vec3 spin = law.rotates ? block.spinDifference.at(l) : Vec3{};
-  const double overlap = block.overlap[l], separating = dot(normal, velocity), before = overlap + separating * dt;
-  const bool first = overlap > 0.0 && before <= 0.0;
-  dem::detail::Velocities now{separating, velocity - separating * normal, spin};
-  if (law.damps) {
-    constexpr dem::detail::BlockOptions options{true, wall, true, true, dem::Recall::motion};
-    const bool remembers = dt > dem::detail::timeless;
-    const dem::detail::Meeting meeting{normal, velocity, overlap, wall ? Vec3{} : block.drift.at(l)};
-    now = dem::detail::velocitiesNow<Moving, options>(block.memory.data() + law.kept(), l, meeting, spin, first, true,
-                                                      remembers ? 0.5 : 0.0, remembers);
-  }
-  const double left = overlap + law.reach, goes = now.separating * dt;
-  const bool last = !first && goes > left;
-  const double fraction = first ? overlap / (overlap - before) : last ? left / goes : 1.0;
-  const double moving = first ? fraction * dt : dt;
+  const Vec3 spin = law.rotates ? block.spinDifference.at(l) : Vec3{},
+             spinNow = law.rotates ? block.spin.at(l) : Vec3{};
+  const double overlap = block.overlap[l], separating = dot(normal, velocity), moving = block.share[l] * dt;
   const Vec3 slipped = moving * (velocity - separating * normal), turned = moving * spin;
-  const double engagement = 0.5 + fraction;
-  rows.insert(rows.end(), {overlap, before, now.separating, rootMass * rootMass, block.effectiveRadius[l]});
-  for (const Vec3& vector : {normal, now.slip, now.spin}) rows.insert(rows.end(), {vector.x, vector.y, vector.z});
+  rows.insert(rows.end(),
+              {overlap, overlap + separating * dt, block.separating[l], rootMass * rootMass, block.effectiveRadius[l]});
+  for (const Vec3& vector : {normal, block.slip.at(l), spinNow})
+    rows.insert(rows.end(), {vector.x, vector.y, vector.z});
   rows.push_back(moving * separating);
   for (const Vec3& vector : {slipped, turned}) rows.insert(rows.end(), {vector.x, vector.y, vector.z});
-  rows.insert(rows.end(), {first ? engagement : 1.0, first || last ? engagement : 1.0});
+  rows.insert(rows.end(), {block.engagement[l], block.jump[l]});
   for (int c = 0; c < law.kept(); ++c) rows.push_back(block.memory[static_cast<std::size_t>(c)][l]);
 }
 
@@ -104,7 +111,8 @@ struct Sweep {
   /// A pair that does not touch forgets.
   double forget(ContactBlock& block, std::size_t l, double scale) const {
     const double lost = scale * block.memory[static_cast<std::size_t>(law.memory) + 1][l];
-    for (int c = 0; c < law.numbers(); ++c) block.memory[static_cast<std::size_t>(c)][l] = 0.0;
+    for (int c = 0; c < law.kept(); ++c) block.memory[static_cast<std::size_t>(c)][l] = 0.0;
+    for (int c = 0; c < rows.motion; ++c) block.motion[static_cast<std::size_t>(c)][l] = 0.0;
     return lost / dt;
   }
 
@@ -117,6 +125,7 @@ struct Sweep {
     while (cursor.pair < cursor.end) {
       const std::size_t n = dem::detail::gatherPairs(particles, list, rows, cursor, block);
       meet(block, n);
+      lookAhead<false>(law, block, n, dt);
       carryVectors(law, block, n, dt);
       for (std::size_t l = 0; l < n; ++l) {
         const double scale = scaleOf(block, l);
@@ -124,8 +133,7 @@ struct Sweep {
           part.lost += forget(block, l, scale);
           continue;
         }
-        appendRow<false>(law, block, l, rows.varied ? block.rootMass[l] / std::sqrt(scale) : block.rootMass[l], dt,
-                         part.rows);
+        appendRow(law, block, l, rows.varied ? block.rootMass[l] / std::sqrt(scale) : block.rootMass[l], dt, part.rows);
         part.first.push_back(list.pairs[cursor.pair + l][0]);
         part.second.push_back(list.pairs[cursor.pair + l][1]);
       }
@@ -178,7 +186,12 @@ struct Sweep {
 };
 
 PairRows rowsFor(const LawTraits& law, const dem::Particles& particles, const PairParts& list) {
-  PairRows rows{.spins = law.rotates, .rolls = true, .mass = true, .radius = true, .memory = law.numbers()};
+  PairRows rows{.spins = law.rotates,
+                .rolls = true,
+                .mass = true,
+                .radius = true,
+                .memory = law.kept(),
+                .motion = law.numbers() - law.kept()};
   dem::detail::findUniform(particles, rows);
   rows.varied = !list.factors.empty();
   return rows;
@@ -210,7 +223,8 @@ void keepEnergies(const LawTraits& law, Batch& batch) {
 dem::ContactWork answerPairs(const LawTraits& law, dem::Particles& particles, dem::PairList& list, double dt,
                              dem::Booking booking, Batch& batch, const Ask& ask) {
   dem::detail::requireStep(dt);
-  list.prepareMemory(law.numbers(), law.turns());
+  list.prepareMemory(law.kept(), law.turns());
+  list.prepareMotion(law.numbers() - law.kept(), true);
   PairParts& pairs = dem::detail::partsOf(list);
   const Sweep sweep{law, particles, pairs, rowsFor(law, particles, pairs), dt, batch};
   if (law.rotates) pairs.chunks.torque.resize(pairs.chunks.force.size());
@@ -239,11 +253,18 @@ WallBatch::WallBatch(const LawTraits& law, double dt, std::size_t contacts, Batc
 
 double WallBatch::take(ContactBlock& block, std::size_t n, std::span<const int> particle, double* memory) {
   const auto kept = static_cast<std::size_t>(law_.kept()), numbers = static_cast<std::size_t>(law_.numbers());
-  std::array<ContactBlock::Row, 18> held;
-  for (std::size_t m = 0; m < numbers; ++m) {
+  std::array<ContactBlock::Row, 12> held;
+  std::array<ContactBlock::Row, 6> moved;
+  block.recalls = numbers > kept;
+  for (std::size_t m = 0; m < kept; ++m) {
     block.memory[m] = held[m].data();
     for (std::size_t l = 0; l < n; ++l) held[m][l] = memory[l * numbers + m];
   }
+  for (std::size_t m = kept; m < numbers; ++m) {
+    block.motion[m - kept] = moved[m - kept].data();
+    for (std::size_t l = 0; l < n; ++l) moved[m - kept][l] = memory[l * numbers + m];
+  }
+  lookAhead<true>(law_, block, n, dt_);
   carryVectors(law_, block, n, dt_);
   double lost = 0.0;
   for (std::size_t l = 0; l < n; ++l) {
@@ -252,12 +273,12 @@ double WallBatch::take(ContactBlock& block, std::size_t n, std::span<const int> 
     energyScales_.push_back(block.energyFraction[l]);
     places_.push_back(here ? static_cast<int>(batch_.first.size()) : -1);
     if (here) {
-      appendRow<true>(law_, block, l, block.rootMass[l], dt_, rows_);
+      appendRow(law_, block, l, block.rootMass[l], dt_, rows_);
       batch_.first.push_back(particle[l]);
     } else {
       lost += block.scale[l] * held[kept - 1][l] / dt_;
     }
-    for (std::size_t m = kept; m < numbers; ++m) memory[l * numbers + m] = here ? held[m][l] : 0.0;
+    for (std::size_t m = kept; m < numbers; ++m) memory[l * numbers + m] = here ? moved[m - kept][l] : 0.0;
   }
   return lost;
 }
@@ -277,7 +298,7 @@ bool WallBatch::acts(std::size_t c, std::size_t& index) const {
 }
 
 dem::ContactWork energyOf(const LawTraits& law, const dem::EndedPairs& left) {
-  const auto numbers = static_cast<std::size_t>(law.numbers());
+  const auto numbers = static_cast<std::size_t>(law.kept());
   dem::ContactWork joules;
   if (left.memory.size() != numbers * left.pairs.size()) return joules;  // of another law
   for (std::size_t k = 0; k < left.pairs.size(); ++k) {

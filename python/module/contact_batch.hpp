@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "dovetail/dem/laws/contact_block.hpp"
+#include "dovetail/dem/laws/contact_passes.hpp"
 #include "dovetail/dem/laws/law_table.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 #include "dovetail/dem/walls/primitive_wall.hpp"

@@ -49,7 +49,7 @@ public:
       throw InputError(what, "smooth surface",
                        "take the facets themselves (\"surface\": \"flat\"), which have no such limits");
     };
-    if (laws.springs() > 0) refuse("\"" + laws.name() + "\" has springs with memory, which patches do not carry");
+    if (laws.memory() > 0) refuse("\"" + laws.name() + "\" has springs with memory, which patches do not carry");
     if (laws.reach() > 0.0) refuse("\"" + laws.name() + "\" acts at a distance");
     if (periodicity.any()) refuse("space is periodic");
   }

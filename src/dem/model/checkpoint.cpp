@@ -20,7 +20,7 @@ void archiveFields(Archive& archive, T& step) {
 
 namespace {
 
-constexpr const char* checkpointKind = "dem model 7";
+constexpr const char* checkpointKind = "dem model 8";
 
 std::vector<char> parametersOf(const Model& m) {
   ByteWriter writer;

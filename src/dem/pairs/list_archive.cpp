@@ -34,8 +34,8 @@ using detail::PairParts;
 template <class Archive, class List>
 void archiveParts(Archive& archive, List& l) {
   archive(l.skin, l.periodicity, l.pairs, l.builds, l.revision, l.innerSkin, l.candidates, l.innerTravel,
-          l.positionAtPruning, l.updatesSincePruning, l.images, l.factors, l.memory, l.turns, l.ended.memory,
-          l.ended.pairs, l.positionAtBuild, l.particleRevision, l.wraps, l.travel);
+          l.positionAtPruning, l.updatesSincePruning, l.images, l.factors, l.memory, l.turns, l.motion, l.motionTurns,
+          l.ended.memory, l.ended.pairs, l.positionAtBuild, l.particleRevision, l.wraps, l.travel);
 }
 
 void require(bool holds, const char* otherwise) {
@@ -76,6 +76,7 @@ void requirePairs(const PairParts& list) {
   require(areImagesOf(list.images, list.size()), "images are out of order");
   require(list.factors.empty() || list.factors.size() == list.size(), "factors are not one per pair");
   require(areFor(list.size(), list.memory.size()), "memories are not as many for each pair");
+  require(areFor(list.size(), list.motion.size()), "velocities are not as many for each pair");
   require(areFor(list.ended.pairs.size(), list.ended.memory.size()), "memories are not as many for each ended pair");
 }
 

@@ -35,14 +35,16 @@ inline Repeats repeatsOf(const geometry::Periodicity& periodicity, const Vec3& d
 
 /// What belonged to the pairs of a list, taken out of it.
 struct Belongings {
-  RawVector<double> memory, factors;
-  std::size_t pairs, components;
+  RawVector<double> memory, factors, motion;
+  std::size_t pairs, components, motions;  ///< numbers of the memory, and of the motion, of a pair
 
   Belongings(PairBelongings& of, std::size_t count);
-  bool empty() const { return memory.empty() && factors.empty(); }
+  bool empty() const { return memory.empty() && factors.empty() && motion.empty(); }
   double factor(std::size_t p) const { return factors.empty() ? 1.0 : factors[p]; }
   double remembered(std::size_t c, std::size_t p) const { return memory[c * pairs + p]; }
   bool remembersAnything(std::size_t p) const;
+  /// Of so many pairs.
+  void makeRoom(std::size_t count, PairParts& list) const;
   /// To as many successive pairs of a list that has room for them.
   void hand(std::size_t o, std::size_t p, std::size_t count, PairParts& list) const;
   void end(const EndedPair& pair, std::size_t p, EndedPairs& ended) const;

@@ -61,8 +61,7 @@ struct Move {
 Pairs movePairs(Buckets<Move>& moves, const Belongings& from, PairParts& list) {
   Pairs pairs(moves.size());
   const std::size_t n = pairs.size();
-  if (!from.factors.empty()) list.factors.resize(n);
-  list.memory.resize(from.components * n);
+  from.makeRoom(n, list);
   parallelFor(moves.count(), 1, [&](std::size_t b, std::size_t) {
     const auto bucket = moves[b];
     std::sort(bucket.begin(), bucket.end(), [](const Move& a, const Move& c) { return a.pair < c.pair; });
@@ -74,6 +73,10 @@ Pairs movePairs(Buckets<Move>& moves, const Belongings& from, PairParts& list) {
       for (std::size_t c = 0; c < from.components; ++c) {
         const bool turns = move.swapped && (list.turns >> c & 1u) != 0;
         list.memory[c * n + p] = (turns ? -1.0 : 1.0) * from.remembered(c, move.from);
+      }
+      for (std::size_t c = 0; c < from.motions; ++c) {
+        const bool turns = move.swapped && list.motionTurns;
+        list.motion[c * n + p] = (turns ? -1.0 : 1.0) * from.motion[c * from.pairs + move.from];
       }
     }
   });
@@ -87,8 +90,10 @@ namespace detail {
 Belongings::Belongings(PairBelongings& of, std::size_t count)
     : memory(std::exchange(of.memory, {})),
       factors(std::exchange(of.factors, {})),
+      motion(std::exchange(of.motion, {})),
       pairs(count),
-      components(count == 0 ? 0 : memory.size() / count) {}
+      components(count == 0 ? 0 : memory.size() / count),
+      motions(count == 0 ? 0 : motion.size() / count) {}
 
 bool Belongings::remembersAnything(std::size_t p) const {
   for (std::size_t c = 0; c < components; ++c)
@@ -96,9 +101,17 @@ bool Belongings::remembersAnything(std::size_t p) const {
   return false;
 }
 
+void Belongings::makeRoom(std::size_t count, PairParts& list) const {
+  list.memory.resize(components * count);
+  list.motion.resize(motions * count);
+  if (!factors.empty()) list.factors.resize(count);
+}
+
 void Belongings::hand(std::size_t o, std::size_t p, std::size_t count, PairParts& list) const {
   for (std::size_t c = 0; c < components; ++c)
     std::copy_n(memory.data() + c * pairs + o, count, list.memory.data() + c * list.size() + p);
+  for (std::size_t c = 0; c < motions; ++c)
+    std::copy_n(motion.data() + c * pairs + o, count, list.motion.data() + c * list.size() + p);
   if (!factors.empty()) std::copy_n(factors.data() + o, count, list.factors.data() + p);
 }
 
@@ -119,6 +132,7 @@ namespace {
 /// Newcomers p … end − 1 remember nothing.
 void startAnew(const Belongings& from, std::size_t p, std::size_t end, PairParts& list) {
   for (std::size_t c = 0; c < from.components; ++c) std::fill_n(list.memory.data() + c * list.size() + p, end - p, 0.0);
+  for (std::size_t c = 0; c < from.motions; ++c) std::fill_n(list.motion.data() + c * list.size() + p, end - p, 0.0);
   if (!from.factors.empty()) std::fill_n(list.factors.data() + p, end - p, 1.0);
 }
 

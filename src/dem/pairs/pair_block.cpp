@@ -29,7 +29,7 @@ void gatherStates(const Particles& particles, const std::array<int, 2>* pairs, s
     const auto sum = [&](const Vec3* values, int k) __attribute__((always_inline)) {
       return load<within>(values[of[k][0]]) + load<within>(values[of[k][1]]);
     };
-    setRows(block.separation, l, apart(x, 0), apart(x, 1), apart(x, 2), apart(x, 3));
+    setRows(block.normal, l, apart(x, 0), apart(x, 1), apart(x, 2), apart(x, 3));
     if constexpr (asked >= Asked::velocities)
       setRows(block.velocity, l, apart(v, 0), apart(v, 1), apart(v, 2), apart(v, 3));
     if constexpr (asked >= Asked::spinSums)
@@ -167,16 +167,18 @@ void shareSizes(const Particles& particles, const PairRows& rows, ContactBlock& 
     row.z.fill(0.0);
   };
   if (!rows.velocities) clear(block.velocity);
+  block.recalls = rows.motion > 0;
   if (rows.oneRadius) {
     block.radiusI.fill(particles.radius[0]);
     block.radiusJ.fill(particles.radius[0]);
   }
   if (rows.spins && !rows.turns) clear(block.spinSum);
   if (rows.spins && !(rows.turns && rows.spinDifferences)) clear(block.spinDifference);
-  if (!rows.mass)
-    block.rootMass.fill(0.0);
-  else if (rows.oneMass)
-    block.rootMass.fill(std::sqrt(0.5 * particles.mass[0]));
+  if (!rows.mass || rows.oneMass) {
+    const double mass = rows.mass ? 0.5 * particles.mass[0] : 0.0;
+    block.rootMass.fill(std::sqrt(mass));
+    block.inverseMass.fill(mass > 0.0 ? 1.0 / mass : 0.0);
+  }
   if (!rows.radius)
     block.effectiveRadius.fill(0.0);
   else if (rows.oneRadius)
@@ -226,7 +228,7 @@ std::size_t gatherPairs(const Particles& particles, PairParts& list, const PairR
   for (; cursor.image < list.images.size() && list.images[cursor.image].pair < first + n; ++cursor.image) {
     const PairImage& image = list.images[cursor.image];
     const std::size_t l = image.pair - first;
-    block.separation.set(l, block.separation.at(l) + shiftOf(list.periodicity, image));
+    block.normal.set(l, block.normal.at(l) + shiftOf(list.periodicity, image));
   }
   if (!rows.oneRadius) gatherRadii(particles, pairs, n, block);
   if (rows.mass && !rows.oneMass) gatherMasses(particles, {pairs, n}, block);
@@ -235,6 +237,10 @@ std::size_t gatherPairs(const Particles& particles, PairParts& list, const PairR
   for (std::size_t c = 0; c < static_cast<std::size_t>(rows.memory); ++c) {
     block.memory[c] = list.memory.data() + c * list.size() + first;
     for (std::size_t l = blockSize; l < 2 * blockSize; l += 8) __builtin_prefetch(block.memory[c] + l, 1);
+  }
+  for (std::size_t c = 0; c < static_cast<std::size_t>(rows.motion); ++c) {
+    block.motion[c] = list.motion.data() + c * list.size() + first;
+    for (std::size_t l = blockSize; l < 2 * blockSize; l += 8) __builtin_prefetch(block.motion[c] + l, 1);
   }
   return n;
 }

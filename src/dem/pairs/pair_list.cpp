@@ -58,16 +58,27 @@ std::span<double> PairList::prepareMemory(int numbers, unsigned turns) {
   return parts_.memory;
 }
 
+void PairList::prepareMotion(int numbers, bool turns) {
+  parts_.motionTurns = turns;
+  const std::size_t needed = static_cast<std::size_t>(numbers) * size();
+  if (parts_.motion.size() != needed) parts_.motion.assign(needed, 0.0);
+}
+
+void PairList::forgetMotion() { std::fill(parts_.motion.begin(), parts_.motion.end(), 0.0); }
+
 void PairList::takeMemory(std::span<const std::size_t> places, const PairList& from) {
   if (places.size() != from.size() || parts_.memory.size() * from.size() != from.memory().size() * size())
     throw InputError(std::to_string(from.memory().size()) + " numbers of memory of " + std::to_string(from.size()) +
                          " pairs do not fit into " + std::to_string(places.size()) + " places of " +
                          std::to_string(size()) + " pairs with " + std::to_string(parts_.memory.size()) + " numbers",
                      "memory of a pair list", "give one place per pair, and both lists to the same law first");
-  const std::size_t components = size() == 0 ? 0 : parts_.memory.size() / size();
-  for (std::size_t c = 0; c < components; ++c)
-    for (std::size_t k = 0; k < places.size(); ++k)
-      parts_.memory[c * size() + places[k]] = from.memory()[c * from.size() + k];
+  const auto take = [&](auto& mine, const auto& others) {
+    const std::size_t components = size() == 0 ? 0 : mine.size() / size();
+    for (std::size_t c = 0; c < components; ++c)
+      for (std::size_t k = 0; k < places.size(); ++k) mine[c * size() + places[k]] = others[c * from.size() + k];
+  };
+  take(parts_.memory, from.memory());
+  if (parts_.motion.size() * from.size() == from.motion().size() * size()) take(parts_.motion, from.motion());
 }
 
 EndedPairs PairList::takeEnded() { return std::exchange(parts_.ended, {}); }
@@ -84,7 +95,8 @@ std::size_t PairList::bytesHeld() const {
   const auto bytes = [](const auto&... arrays) { return ((arrays.capacity() * sizeof(arrays[0])) + ... + 0); };
   const PairChunks& chunks = parts_.chunks;
   return bytes(parts_.positionAtBuild, parts_.candidates, parts_.positionAtPruning) +
-         bytes(parts_.pairs, parts_.images, parts_.factors, parts_.memory, parts_.ended.pairs, parts_.ended.memory) +
+         bytes(parts_.pairs, parts_.images, parts_.factors, parts_.memory, parts_.motion, parts_.ended.pairs,
+               parts_.ended.memory) +
          bytes(chunks.begin, chunks.crosses, chunks.force, chunks.torque, chunks.arrives, chunks.arriving,
                chunks.largest, chunks.images, chunks.candidates);
 }

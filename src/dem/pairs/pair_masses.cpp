@@ -15,7 +15,11 @@ void gatherMasses(const Particles& particles, std::span<const std::array<int, 2>
       a[l] *= particles.weight[static_cast<std::size_t>(pairs[l][0])];
       b[l] *= particles.weight[static_cast<std::size_t>(pairs[l][1])];
     }
-  for (std::size_t l = 0; l < pairs.size(); ++l) block.rootMass[l] = std::sqrt(a[l] * (b[l] / (a[l] + b[l])));
+  for (std::size_t l = 0; l < pairs.size(); ++l) {
+    const double both = a[l] * (b[l] / (a[l] + b[l]));
+    block.rootMass[l] = std::sqrt(both);
+    block.inverseMass[l] = both > 0.0 ? 1.0 / (both > 0.0 ? both : 1.0) : 0.0;
+  }
 }
 
 void makeRadii(std::size_t n, ContactBlock& block) {

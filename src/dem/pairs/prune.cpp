@@ -97,10 +97,9 @@ void findImages(const Particles& particles, const PairParts& list, std::size_t c
 /// @param fill fill(chunk, images) writes the chunk's pairs and lists those that meet across a period
 template <class Fill>
 void updateChunks(const Particles& particles, const Pairs& old, PairParts& list, Fill&& fill) {
-  const std::size_t chunks = list.chunks.count(), n = list.size();
+  const std::size_t chunks = list.chunks.count();
   const Belongings from(list, old.size());
-  list.memory.resize(from.components * n);
-  if (!from.factors.empty()) list.factors.resize(n);
+  from.makeRoom(list.size(), list);
   std::vector<EndedPairs> ended(chunks);
   Links links(chunks);
   parallelFor(chunks, 1, [&](std::size_t c, std::size_t) {
@@ -156,6 +155,7 @@ void preferLargePagesFor(const Particles& particles, const PairParts& list) {
   forEachArray(particles, [](const auto& array) { preferLargePages(array); });
   preferLargePages(list.pairs);
   preferLargePages(list.memory);
+  preferLargePages(list.motion);
   preferLargePages(list.factors);
 }
 

@@ -34,39 +34,64 @@ struct ByPlaces {
   return x + y + z;
 }
 
-/// Particles i … i + 3, which neither spin nor are weighted, with the digits of one after the other.
+/// Twelve numbers: four vectors that lie one behind the other.
+struct FourInARow {
+  Four a, b, c;
+  [[gnu::always_inline]] static FourInARow of(const Vec3* vectors) {
+    const double* const row = &vectors->x;
+    return {loadRow(row), loadRow(row + 4), loadRow(row + 8)};
+  }
+  [[gnu::always_inline]] void put(Vec3* vectors) const {
+    double* const row = &vectors->x;
+    store(row, a);
+    store(row + 4, b);
+    store(row + 8, c);
+  }
+  /// += n times (factors of each × vectors).
+  [[gnu::always_inline]] void kick(int n, const ByPlaces& factors, const FourInARow& of) {
+    const Four ka = factors.a * of.a, kb = factors.b * of.b, kc = factors.c * of.c;
+    for (int k = 0; k < n; ++k) {
+      a += ka;
+      b += kb;
+      c += kc;
+    }
+  }
+};
+
+/// Particles i … i + 3, with the digits of one after the other.
 /// @param largest  of squared displacements so far, m², by place
 /// @return false, and nothing is changed, if a number is not finite
+template <bool spins, bool weighted>
 [[gnu::always_inline]] inline bool advanceFour(Particles& particles, std::size_t i, const Sweep& sweep, Four& largest) {
-  const Four mass = loadRow(particles.mass.data() + i);
-  const ByPlaces half = byPlaces((0.5 * sweep.dt) / mass);
-  double *const v = &particles.v[i].x, *const x = &particles.x[i].x, *const f = &particles.f[i].x;
-  Four v0 = loadRow(v), v1 = loadRow(v + 4), v2 = loadRow(v + 8);
-  const Four k0 = half.a * loadRow(f), k1 = half.b * loadRow(f + 4), k2 = half.c * loadRow(f + 8);
-  for (int k = 0; k < sweep.halfKicks; ++k) {
-    v0 += k0;
-    v1 += k1;
-    v2 += k2;
+  const Four own = loadRow(particles.mass.data() + i);
+  Four mass = own, inertia = own;
+  if constexpr (weighted) mass = loadRow(particles.weight.data() + i) * own;
+  FourInARow v = FourInARow::of(&particles.v[i]), x = FourInARow::of(&particles.x[i]), omega;
+  v.kick(sweep.halfKicks, byPlaces((0.5 * sweep.dt) / mass), FourInARow::of(&particles.f[i]));
+  Four moved = squaredNorms(v.a, v.b, v.c) * (sweep.dt * sweep.dt) + 0.0 * (x.a + x.b + x.c);
+  if constexpr (spins) {
+    const Four radius = loadRow(particles.radius.data() + i);
+    inertia = 0.4 * own * radius * radius;
+    if constexpr (weighted) inertia = loadRow(particles.weight.data() + i) * inertia;
+    omega = FourInARow::of(&particles.omega[i]);
+    omega.kick(sweep.halfKicks, byPlaces((0.5 * sweep.dt) / inertia), FourInARow::of(&particles.torque[i]));
+    moved += 0.0 * (omega.a + omega.b + omega.c);
   }
-  const Four x0 = loadRow(x), x1 = loadRow(x + 4), x2 = loadRow(x + 8);
-  const Four moved = squaredNorms(v0, v1, v2) * (sweep.dt * sweep.dt);
-  const auto finite = moved + 0.0 * (x0 + x1 + x2) < std::numeric_limits<double>::infinity();
+  const auto finite = moved < std::numeric_limits<double>::infinity();
   const auto both = finite & __builtin_shufflevector(finite, finite, 2, 3, 0, 1);
   if ((both[0] & both[1]) == 0) [[unlikely]]
     return false;
   largest = moved > largest ? moved : largest;
-  store(v, v0);
-  store(v + 4, v1);
-  store(v + 8, v2);
-  store(x, x0 + sweep.dt * v0);
-  store(x + 4, x1 + sweep.dt * v1);
-  store(x + 8, x2 + sweep.dt * v2);
+  v.put(&particles.v[i]);
+  FourInARow{x.a + sweep.dt * v.a, x.b + sweep.dt * v.b, x.c + sweep.dt * v.c}.put(&particles.x[i]);
+  if constexpr (spins) omega.put(&particles.omega[i]);
   if (!sweep.startsForces) return true;
   const ByPlaces weight = byPlaces(mass);
   const Vec3& g = sweep.g;
-  store(f, weight.a * Four{g.x, g.y, g.z, g.x});
-  store(f + 4, weight.b * Four{g.y, g.z, g.x, g.y});
-  store(f + 8, weight.c * Four{g.z, g.x, g.y, g.z});
+  FourInARow{weight.a * Four{g.x, g.y, g.z, g.x}, weight.b * Four{g.y, g.z, g.x, g.y},
+             weight.c * Four{g.z, g.x, g.y, g.z}}
+      .put(&particles.f[i]);
+  if constexpr (spins) FourInARow{Four{}, Four{}, Four{}}.put(&particles.torque[i]);
   return true;
 }
 

@@ -106,17 +106,16 @@ double sweepAll(Particles& particles, const Sweep& sweep) {
       largest = d2 > largest ? d2 : largest;
     };
     std::size_t i = begin;
-    if constexpr (!spins && !weighted)
-      withVectors([&, end] {
-        const Sweep now = sweep;  // copies that nothing else can change
-        std::size_t k = i;
-        Four largestOfFour{};
-        for (; k + 4 <= end; k += 4)
-          if (!detail::advanceFour(particles, k, now, largestOfFour)) [[unlikely]]
-            for (std::size_t one = k; one < k + 4; ++one) take(advance<spins, weighted>(particles, one, now));
-        for (int one = 0; one < 4; ++one) take(largestOfFour[one]);
-        i = k;
-      });
+    withVectors([&, end] {
+      const Sweep now = sweep;  // copies that nothing else can change
+      std::size_t k = i;
+      Four largestOfFour{};
+      for (; k + 4 <= end; k += 4)
+        if (!detail::advanceFour<spins, weighted>(particles, k, now, largestOfFour)) [[unlikely]]
+          for (std::size_t one = k; one < k + 4; ++one) take(advance<spins, weighted>(particles, one, now));
+      for (int one = 0; one < 4; ++one) take(largestOfFour[one]);
+      i = k;
+    });
     for (; i < end; ++i) take(advance<spins, weighted>(particles, i, sweep));
     return Largest{finite ? largest : infinity};
   };

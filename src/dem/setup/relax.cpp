@@ -145,12 +145,9 @@ void stop(Model& m) {
 }
 
 void forgetVelocities(Model& m) {
-  if (!m.laws || m.laws->memory() == m.laws->springs()) return;
-  const auto springs = static_cast<std::ptrdiff_t>(m.laws->springs());
-  auto& ofPairs = detail::partsOf(m.pairs).memory;
-  if (ofPairs.size() == m.pairs.size() * static_cast<std::size_t>(m.laws->memory()))
-    std::fill(ofPairs.begin() + springs * static_cast<std::ptrdiff_t>(m.pairs.size()), ofPairs.end(), 0.0);
-  for (const auto& term : m.terms) term->forgetVelocities(m.laws->springs());
+  if (!m.laws) return;
+  m.pairs.forgetMotion();
+  for (const auto& term : m.terms) term->forgetVelocities(m.laws->memory());
 }
 
 double kineticEnergy(const Model& m) {

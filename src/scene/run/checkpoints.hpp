@@ -43,7 +43,7 @@ struct Progress {
 };
 
 /// What states of scenes are; with the mark of our files (output_folder.hpp).
-inline constexpr const char* checkpointKind = "dovetail 9 scene";
+inline constexpr const char* checkpointKind = "dovetail 10 scene";
 
 /// A state as it lies in a file.
 struct Checkpoint {

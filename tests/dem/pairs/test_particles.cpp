@@ -134,6 +134,44 @@ TEST(Particles, AWeightedParticleMovesAsTheWholeOneUnderItsShareOfTheForce) {
   }
 }
 
+TEST(Particles, OneSweepHasTheDigitsOfItsVerbs) {
+  const Vec3 g{0.5, -1.0, -9.81};
+  const double dt = 1e-3;
+  for (const bool spins : {false, true})
+    for (const bool weighted : {false, true}) {
+      Random random(7);
+      Particles verbs;
+      for (int i = 0; i < 11; ++i)
+        addParticle(verbs, random.vector(1.0), random.vector(0.5), random(0.1, 0.3), Mass{random(1.0, 5.0)});
+      if (spins) switchOnRotation(verbs);
+      if (weighted)
+        for (int i = 0; i < 11; ++i) verbs.weight.push_back(random(0.1, 1.0));
+      for (Vec3& f : verbs.f) f = random.vector(20.0);
+      for (Vec3& omega : verbs.omega) omega = random.vector(3.0);
+      for (Vec3& torque : verbs.torque) torque = random.vector(2.0);
+      Particles sweep = verbs;
+      const double moved = turnStep(sweep, dt, g);
+      kick(verbs, 0.5 * dt);
+      kick(verbs, 0.5 * dt);
+      drift(verbs, dt);
+      startForces(verbs, g);
+      EXPECT_EQ(sweep.x, verbs.x);
+      EXPECT_EQ(sweep.v, verbs.v);
+      EXPECT_EQ(sweep.f, verbs.f);
+      EXPECT_EQ(sweep.omega, verbs.omega);
+      EXPECT_EQ(sweep.torque, verbs.torque);
+      double most = 0.0;
+      for (const Vec3& v : verbs.v) most = std::max(most, dt * norm(v));
+      EXPECT_NEAR(moved, most, 1e-15);
+      // One number that is none stops its particle alone.
+      sweep.v[5].y = std::numeric_limits<double>::quiet_NaN();
+      const Vec3 before = sweep.x[5], other = sweep.x[6];
+      EXPECT_EQ(turnStep(sweep, dt, g), std::numeric_limits<double>::infinity());
+      EXPECT_EQ(sweep.x[5], before);
+      EXPECT_NE(sweep.x[6], other);
+    }
+}
+
 TEST(Particles, NoParticlesIsNoError) {
   Particles particles;
   EXPECT_NO_THROW(validate(particles));

@@ -18,6 +18,9 @@ struct Contact {
   double overlapBefore = 0.0;    ///< δ one step ago, m; < 0 if they were apart
   double separating = 0.0;       ///< n·velocity, m/s; > 0 while the overlap closes
   double separated = 0.0;        ///< n·displacement in this step, while they touched, m
+  double engagement = 1.0;       ///< factor on all dashpots: what counts of the step of the first touch, and of the
+                                 ///< last one if the normal part may pull; 1 in all others
+  double jump = 1.0;             ///< the same for forces that begin or end at once, in both
   double effectiveMass = 0.0;    ///< m₁m₂/(m₁ + m₂), kg; only where a part has `needsMass`
   double rootMass = 0.0;         ///< its square root, kg^½
   double inverseMass = 0.0;      ///< 1/effectiveMass, 1/kg; 0 where no dashpot asks for it
@@ -27,9 +30,6 @@ struct Contact {
   Vec3 spin;                     ///< angular velocity of the particle minus the partner's, rad/s
   Vec3 slipped;                  ///< tangential displacement in this step, while they touched, m
   Vec3 turned;                   ///< relative rotation in this step, while they touched, rad
-  bool first = false;            ///< they have come to touch in this step
-  bool last = false;             ///< they will part, or leave the law's reach, in the next step
-  double fraction = 1.0;         ///< of the step, since they touched or until they part; 1 in all other steps
   double dt = 0.0;               ///< step over which memories advance, s
   double inverseDt = 0.0;        ///< 1/dt, 1/s
 };
@@ -40,7 +40,6 @@ struct NormalResponse {
   double firstMean = 1.0;     ///< its mean since first touch over that now, in the step of the first touch
   double damping = 0.0;       ///< N s/m, of the dashpot; other parts scale with it
   double energy = 0.0;        ///< J, recoverable
-  double engagement = 1.0;    ///< factor on all dashpots in this step: see engagementOf
   double dashpotPower = 0.0;  ///< W, now
   double plasticPower = 0.0;  ///< W, average of this step
 };

@@ -68,10 +68,8 @@ public:
   /// Energy in springs of pairs that ended with the removal of a particle, J.
   virtual double held(const EndedPairs& pairs) const = 0;
 
-  /// Memory of a pair, in numbers, that of velocities included.
+  /// Numbers that a contact remembers, without those of velocities.
   virtual int memory() const = 0;
-  /// Those of them that springs take, the first ones; what follows are velocities of the last step.
-  virtual int springs() const = 0;
   /// Whether contacts exert torques, so that particles should spin.
   virtual bool rotates() const = 0;
   /// Distance beyond touch up to which it acts, m: the largest of the table, ∞ if every pair of the list is bonded.

@@ -38,8 +38,8 @@ struct ElasticPlastic {
       held[0] = plastic;
       const double spring = stiffness * (contact.overlap - plastic);
       const double elastic = spring < leastElastic ? leastElastic : spring;
-      const double damping = dampingPerRootMass * contact.rootMass, engagement = engagementOf(contact, false);
-      const double seen = seenBy(contact, stiffness), whole = elastic - engagement * damping * seen;
+      const double damping = dampingPerRootMass * contact.rootMass;
+      const double seen = seenBy(contact, stiffness), whole = elastic - contact.engagement * damping * seen;
       // The dashpot alone neither pulls nor deepens the pull.
       const double floor = elastic < 0.0 ? elastic : 0.0;
       const double force = whole < floor ? floor : whole;
@@ -48,7 +48,6 @@ struct ElasticPlastic {
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * elastic / stiffness,
-              .engagement = engagement,
               .dashpotPower = (elastic - force) * seen,
               .plasticPower = 0.5 * (change > 0.0 ? yield * change : -yieldCohesion * change) * contact.inverseDt};
     }

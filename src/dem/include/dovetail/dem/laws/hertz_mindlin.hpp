@@ -36,26 +36,22 @@ struct HertzDashpot {
       const double stiffness = twiceModulus * std::sqrt(contact.effectiveRadius * contact.overlap);
       const double damping = dampingFactor * contact.rootMass * std::sqrt(stiffness);
       const double elastic = hertzForce * stiffness * contact.overlap;
-      const double engagement = rootEngagementOf(contact, leastForce < 0.0), seen = seenBy(contact, stiffness);
-      const double whole = elastic - engagement * damping * seen;
+      const double seen = seenBy(contact, stiffness), whole = elastic - contact.engagement * damping * seen;
       const double force = whole < leastForce ? leastForce : whole;
       return {.force = force,
               .stiffness = stiffness,
               .firstMean = 2.0 / 3.0,
               .damping = damping,
               .energy = hertzEnergy * elastic * contact.overlap,
-              .engagement = engagement,
               .dashpotPower = (elastic - force) * seen};
     }
-    /// As engagementOf, for damping that grows from touch as t^¼: what the sum over steps lacks of the integral is
-    /// ζ(−¼, θ), Hurwitz's zeta function (Navot, J. Math. Phys. 40, 1961), so this is −ζ(−¼, 1 + θ)/θ^¼, to 2e-4.
-    [[gnu::always_inline]] static double rootEngagementOf(const Contact& contact, bool untilTheEnd) {
-      const double t = contact.fraction > 1e-12 ? contact.fraction : 1e-12;
-      const double sum = 0.32027438 + t * (0.8641871 + t * (0.16402912 - t * 0.02817562));
-      const double part = sum / std::sqrt(std::sqrt(t)), late = contact.last ? part : 1.0;
-      const double until = untilTheEnd ? late : 1.0;
-      return contact.first ? part : until;
+    /// Damping grows from touch as t^¼: what the sum over steps lacks of the integral is ζ(−¼, θ), Hurwitz's zeta
+    /// function (Navot, J. Math. Phys. 40, 1961), so this is −ζ(−¼, 1 + θ)/θ^¼, to 2e-4.
+    static double engagement(double fraction) {
+      const double t = fraction > 1e-12 ? fraction : 1e-12;
+      return (0.32027438 + t * (0.8641871 + t * (0.16402912 - t * 0.02817562))) / std::sqrt(std::sqrt(t));
     }
+    bool pulls() const { return leastForce < 0.0; }
     double reach() const { return 0.0; }
     bool usesMass() const { return dampingFactor > 0.0; }
     double remembered(const double*) const { return 0.0; }
@@ -96,7 +92,7 @@ struct MindlinSpring {
       const double stiffness = stiffnessRatio * normal.stiffness;
       const Slider<dashpot> now = slideGrowing<dashpot>(
           Vec3{held[0], held[1], held[2]}, held[3], contact.slipped, contact.slip, stiffness, normal.firstMean,
-          dampingRatio * normal.engagement * normal.damping, limit, contact.inverseDt);
+          dampingRatio * contact.engagement * normal.damping, limit, contact.inverseDt);
       held[0] = now.stretch.x;
       held[1] = now.stretch.y;
       held[2] = now.stretch.z;

@@ -29,9 +29,8 @@ struct PreparedLaws {
     for (const auto& law : table) most = std::max(most, law.recall());
     return most;
   }
-  /// Numbers that a pair remembers.
-  int numbers() const { return Law::memory + Law::recalled(recall()); }
-  /// Those that a contact with a wall does. Its normal turns as the wall goes and bends, so velocities are kept whole.
+  /// Numbers that a contact with a wall remembers, velocities included. Its normal turns as the wall goes and bends, so
+  /// velocities are kept whole.
   int wallNumbers() const { return Law::memory + (recall() == Recall::nothing ? 0 : Law::recalled(Recall::motion)); }
   bool usesMass() const {
     for (const auto& law : table)

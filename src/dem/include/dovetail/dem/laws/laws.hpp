@@ -6,6 +6,11 @@
 //   static constexpr unsigned turns     bit c is set if number c changes its sign when the two particles change roles
 //   static constexpr bool needs…        what of `Contact` it reads beyond overlap, separation, normal and dt
 //   Prepared::damps()                   of other than normal parts: whether it has a dashpot; may be left out
+//   Prepared::pulls()                   of normal parts: whether dashpots act until the contact ends; may be left out
+//   Prepared::engagement(θ)             of normal parts: Contact::engagement where the part θ of a step is in touch.
+//                                       Left out where damping does not grow with the overlap: ½ + θ, as the kick in
+//                                       the step of the first touch is one for the time since touch and the half step
+//                                       that follows, that of the last for the half step before and the time left
 //   prepare()                           what the loop over contacts uses; roots, logarithms and checks are done here
 //   static constexpr unsigned carries   bit c is set if numbers c, c + 1 and c + 2 are a tangential vector, which is
 //                                       turned with the contact before `respond` is asked (`carried`, contact.hpp);
@@ -30,15 +35,8 @@ namespace dovetail::dem {
 /// Velocity that the dashpot beside a spring of slope k sees, m/s: `separating` knows the acceleration of the last step
 /// only; the spring has changed it since by −(k/m) times what has closed of the overlap. (dt² k/m ≤ 4 in stable steps.)
 [[gnu::always_inline]] inline double seenBy(const Contact& contact, double stiffness) {
-  const double turned = 0.5 * stiffness * contact.inverseMass * contact.dt * contact.dt;
-  return contact.separating - (turned < 2.0 ? turned : 2.0) * contact.inverseDt * contact.separated;
-}
-/// Factor on a force that is there at once when two bodies touch, and on one that is there until they part: the kick in
-/// the step of the first touch is one for the time since touch and the half step that follows, that of the last for the
-/// half step before and the time until they part.
-[[gnu::always_inline]] inline double engagementOf(const Contact& contact, bool untilTheEnd) {
-  const double part = 0.5 + contact.fraction, late = contact.last ? part : 1.0, until = untilTheEnd ? late : 1.0;
-  return contact.first ? part : until;
+  const double turned = 0.5 * stiffness * contact.dt * contact.inverseMass, most = 2.0 * contact.inverseDt;
+  return contact.separating - (turned < most ? turned : most) * contact.separated;
 }
 
 /// Normal part: linear spring and dashpot, F = k δ + c dδ/dt (> 0 pushes apart).
@@ -83,20 +81,19 @@ struct LinearSpringDashpot {
     double elasticForce(double overlap) const { return stiffness * overlap; }
 
     [[gnu::always_inline]] NormalResponse respond(const Contact& contact, double*) const {
-      const double damping = dampingPerRootMass * contact.rootMass,
-                   engagement = engagementOf(contact, leastForce < 0.0);
+      const double damping = dampingPerRootMass * contact.rootMass;
       const double elastic = stiffness * contact.overlap, seen = seenBy(contact, stiffness);
-      const double whole = elastic - engagement * damping * seen;
+      const double whole = elastic - contact.engagement * damping * seen;
       const double force = whole < leastForce ? leastForce : whole;
       return {.force = force,
               .stiffness = stiffness,
               .damping = damping,
               .energy = 0.5 * elastic * contact.overlap,
-              .engagement = engagement,
               .dashpotPower = (elastic - force) * seen};
     }
     /// Contacts act while overlap > −reach, m.
     double reach() const { return range; }
+    bool pulls() const { return leastForce < 0.0; }
     bool usesMass() const { return dampingPerRootMass > 0.0; }
     double remembered(const double*) const { return 0.0; }
   };
@@ -149,7 +146,7 @@ struct TangentialSpring {
       const Vec3 old{held[0], held[1], held[2]};
       const double limit = normal.force > 0.0 ? friction * normal.force : 0.0;
       const Slider<dashpot> now(old, stiffness * old, contact.slipped, contact.slip, stiffness,
-                                dampingRatio * normal.engagement * normal.damping, limit, contact.inverseDt);
+                                dampingRatio * contact.engagement * normal.damping, limit, contact.inverseDt);
       held[0] = now.stretch.x;
       held[1] = now.stretch.y;
       held[2] = now.stretch.z;
@@ -253,13 +250,9 @@ struct ContactLaw {
   /// Whether contacts exert torques, so that particles spin.
   static constexpr bool rotates = needsSlip || needsSpin;
 
-  /// Numbers that a contact remembers behind those of the parts: n·v, or the relative velocity and spin.
+  /// Velocities that a contact remembers, as numbers: n·v, or the relative velocity and spin.
   static constexpr int recalled(Recall recall) {
     return recall == Recall::nothing ? 0 : recall == Recall::approach ? 1 : needsSpin ? 6 : 3;
-  }
-  /// `turns` of all that is remembered.
-  static constexpr unsigned turnsWith(Recall recall) {
-    return turns | (recall == Recall::motion ? (1u << recalled(recall)) - 1u : 0u) << memory;
   }
 
   template <class PreparedTangential>

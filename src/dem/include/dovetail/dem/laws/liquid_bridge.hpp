@@ -32,8 +32,8 @@ struct LiquidBridge {
       const double scale = std::sqrt(2.0 * contact.effectiveRadius * inverseVolume);
       const bool touches = contact.overlap > 0.0;
       const double atRupture = pull / scale * work(scale * rupture);
-      const bool formed = held[0] > 0.0, partly = contact.last || (contact.first && !formed);
-      const double engagement = partly ? 0.5 + contact.fraction : 1.0;
+      const bool formed = held[0] > 0.0, again = formed && touches && !(contact.overlapBefore > 0.0);
+      const double engagement = again ? 1.0 : contact.jump;
       held[0] = touches || formed ? atRupture : 0.0;
       if (!(held[0] > 0.0)) return {};
       if (touches) return {-engagement * pull, -pull * contact.overlap};

@@ -45,8 +45,7 @@ public:
 
   double held(const EndedPairs& pairs) const override { return endedWork(pairs, laws_).lostPower(); }
 
-  int memory() const override { return laws_.numbers(); }
-  int springs() const override { return Law::memory; }
+  int memory() const override { return Law::memory; }
   bool rotates() const override { return Law::rotates; }
   double reach() const override { return laws_.reach(); }
   int materials() const override { return laws_.materials; }

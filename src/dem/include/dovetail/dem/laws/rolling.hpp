@@ -27,7 +27,7 @@ struct RollingResistance {
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
       const Slider<> slider =
           slideGrowing(Vec3{held[0], held[1], held[2]}, held[3], across(contact.turned), across(contact.spin),
-                       now.stiffness, normal.firstMean, normal.engagement * now.damping, limit, contact.inverseDt);
+                       now.stiffness, normal.firstMean, contact.engagement * now.damping, limit, contact.inverseDt);
       held[0] = slider.stretch.x;
       held[1] = slider.stretch.y;
       held[2] = slider.stretch.z;
@@ -65,7 +65,7 @@ struct TwistingResistance {
       const double limit = normal.force > 0.0 ? friction * contact.effectiveRadius * normal.force : 0.0;
       const auto slider =
           slideGrowing(held[0], held[1], dot(contact.turned, contact.normal), dot(contact.spin, contact.normal),
-                       now.stiffness, normal.firstMean, normal.engagement * now.damping, limit, contact.inverseDt);
+                       now.stiffness, normal.firstMean, contact.engagement * now.damping, limit, contact.inverseDt);
       held[0] = slider.stretch;
       held[1] = now.stiffness;
       return {-slider.force * contact.normal, slider.energy, slider.slipPower, slider.dashpotPower};

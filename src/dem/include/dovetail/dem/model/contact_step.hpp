@@ -131,7 +131,7 @@ template <class Law>
 void addPairDemand(ContactDemand& demand, const Particles& particles, const PairList& list,
                    const PreparedLaws<Law>& laws, double leastOverlap) {
   constexpr auto numbers = static_cast<std::size_t>(Law::memory);
-  const bool remembers = list.memory().size() == static_cast<std::size_t>(laws.numbers()) * list.size();
+  const bool remembers = list.memory().size() == numbers * list.size();
   const auto material = [&](std::size_t i) { return particles.material.empty() ? 0 : int{particles.material[i]}; };
   for (std::size_t p = 0; p < list.size(); ++p) {
     const auto i = static_cast<std::size_t>(list.pairs()[p][0]), j = static_cast<std::size_t>(list.pairs()[p][1]);

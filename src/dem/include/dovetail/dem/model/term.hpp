@@ -95,8 +95,8 @@ public:
   /// kick(dt/2): the end of the step.
   virtual void close(Model&, double /*dt*/) {}
   /// Its contacts forget how they moved in the last step: see forgetVelocities(Model&).
-  /// @param springs  numbers of what a contact remembers that stay, the first ones
-  virtual void forgetVelocities(int /*springs*/) {}
+  /// @param memory  ContactLaws::memory: what stays
+  virtual void forgetVelocities(int /*memory*/) {}
 
   virtual void addDemand(const Model&, ContactDemand&) const {}
   /// Partners of particles in impacts (see impactLimit).

@@ -48,8 +48,7 @@ void requireMemory(const PairList& list, int memory);
 /// ContactLaws::sample, with the law known.
 template <class Law>
 ContactSample samplePairs(const Particles& particles, const PairList& list, const PreparedLaws<Law>& laws) {
-  const int numbers = laws.numbers();
-  requireMemory(list, numbers);
+  requireMemory(list, Law::memory);
   constexpr double noTime = 1e-100;  // so short a step that no memory advances
   constexpr std::size_t atOnce = 64, chunkSize = 16 * atOnce;
   std::vector<ContactSample> parts((list.size() + chunkSize - 1) / chunkSize);
@@ -60,7 +59,7 @@ ContactSample samplePairs(const Particles& particles, const PairList& list, cons
       const std::size_t left = end - first, rounds = std::max<std::size_t>(left / atOnce, 1);
       PairsApart apart(std::min(left, atOnce));
       for (std::size_t r = 0; r < rounds; ++r, first += apart.list.size()) {
-        apart.take(particles, list, first, numbers);
+        apart.take(particles, list, first, Law::memory);
         collide(apart.particles, apart.list, laws, noTime, Booking::off);
         appendPairs(apart, list, first, part);
       }

@@ -6,7 +6,7 @@
 
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/vector_code.hpp"
-#include "dovetail/dem/laws/contact_block.hpp"
+#include "dovetail/dem/laws/answer.hpp"
 #include "dovetail/dem/laws/listed_laws.hpp"
 #include "dovetail/dem/pairs/pairs.hpp"
 
@@ -39,7 +39,7 @@ void requireStep(double dt);
 /// What a law asks for, and what all particles share.
 struct PairRows {
   bool spins = false, rolls = false, mass = false, radius = false, varied = false;
-  int memory = 0, materials = 1;
+  int memory = 0, motion = 0, materials = 1;
   bool turns = false;            ///< the law exerts torques and the particles spin
   bool spinDifferences = false;  ///< not only sums of spins count, and torques differ
   bool oneRadius = false;        ///< all particles have the same
@@ -82,16 +82,15 @@ Contact atRest(const EndedPair& pair);
 /// normal springs' energy, which counts as fracture, and have lost nothing else yet.
 template <class Law>
 ContactWork endedWork(const EndedPairs& left, const PreparedLaws<Law>& laws) {
-  constexpr auto own = static_cast<std::size_t>(Law::memory);
-  const auto numbers = static_cast<std::size_t>(laws.numbers());
+  constexpr auto numbers = static_cast<std::size_t>(Law::memory);
   ContactWork work;
   if (left.memory.size() != numbers * left.pairs.size()) return work;
   for (std::size_t k = 0; k < left.pairs.size(); ++k) {
     const EndedPair& pair = left.pairs[k];
     if (std::max(pair.materials[0], pair.materials[1]) >= laws.materials && laws.materials > 1) continue;
     const auto& law = laws.materials == 1 ? laws.table[0] : laws.at(pair.materials[0], pair.materials[1]);
-    double memory[own + 1] = {};
-    std::copy_n(left.memory.data() + k * numbers, own, memory);
+    double memory[numbers + 1] = {};
+    std::copy_n(left.memory.data() + k * numbers, numbers, memory);
     ContactWork ended = law.ended(memory, 1.0);
     if (pair.overlap > -law.reach()) {
       ended.fracturePower = law.respond(atRest(pair), memory).work.elasticEnergy;
@@ -126,8 +125,6 @@ template <class Law, BlockOptions options>
 ContactWork collideChunk(Particles& particles, PairParts& list, std::size_t chunk, const PairRows& rows,
                          const typename Law::Prepared* laws, double dt) {
   ContactBlock block;
-  ContactBlock::Row none{};
-  block.recall(Law::memory, Law::recalled(options.recall), rows.memory > Law::memory, none);
   shareSizes(particles, rows, block);
   ContactWork work;
   PairCursor cursor = startOfChunk(particles, list, rows, chunk);
@@ -180,14 +177,15 @@ template <class Law>
 ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt, Booking booking) {
   if constexpr (Law::memory > 0) requireStep(dt);
   const Recall recall = laws.recall();
-  const int numbers = laws.numbers();
-  if (numbers > 0) list.prepareMemory(numbers, Law::turnsWith(recall));
+  if (Law::memory > 0) list.prepareMemory(Law::memory, Law::turns);
+  list.prepareMotion(Law::recalled(recall), recall == Recall::motion);
   PairParts& parts = partsOf(list);
   PairRows rows{.spins = Law::rotates,
                 .rolls = Law::needsSpin,
                 .mass = Law::needsMass && laws.usesMass(),
                 .radius = Law::needsRadius,
-                .memory = numbers,
+                .memory = Law::memory,
+                .motion = Law::recalled(recall),
                 .materials = laws.materials,
                 .velocities = seesVelocities(laws)};
   findUniform(particles, rows);

@@ -90,6 +90,8 @@ struct PairBelongings {
   RawVector<double> factors;  ///< one per pair; empty = 1
   RawVector<double> memory;   ///< number c of pair p is memory[c * pairs.size() + p]
   unsigned turns = 0;         ///< of the law that last used the memory: see laws.hpp
+  RawVector<double> motion;   ///< of velocities of the last step, by component as memory: see Recall
+  bool motionTurns = false;   ///< they change their signs when the two particles change roles
   EndedPairs ended;           ///< whom nobody has booked yet
 };
 

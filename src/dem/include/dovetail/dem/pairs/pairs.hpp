@@ -96,7 +96,13 @@ public:
   /// The same for writing, with room for the memories of a law: all zero if they were of another size.
   /// @param numbers per pair @param turns see laws.hpp
   std::span<double> prepareMemory(int numbers, unsigned turns);
-  /// Copies the memory of the pairs of another list into places of this one.
+  /// How contacts moved in the last step, for dashpots (see Recall), by component as memory(), m/s and rad/s.
+  const RawVector<double>& motion() const { return parts_.motion; }
+  /// Makes room for it: all zero, which means unknown, if it was of another size.
+  /// @param turns  the numbers change their signs when the two particles change roles
+  void prepareMotion(int numbers, bool turns);
+  void forgetMotion();
+  /// Copies the memory of the pairs of another list into places of this one, and how they moved if both know it.
   /// @throws InputError unless there are as many places as pairs, and both lists have as much memory per pair
   void takeMemory(std::span<const std::size_t> places, const PairList& from);
   /// Pairs that have left the list since the last call.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "dovetail/core/parallel.hpp"
-#include "dovetail/dem/laws/contact_block.hpp"
+#include "dovetail/dem/laws/answer.hpp"
 #include "dovetail/dem/laws/law_table.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/walls/ended_memories.hpp"
@@ -69,6 +69,7 @@ template <class Law, class Contacts, class Motion>
 void gatherWall(const Particles& particles, const Contacts& contacts, const std::vector<double>& memory,
                 std::size_t numbers, const PreparedLaws<Law>& laws, const WallSide& wall, std::size_t first,
                 std::size_t n, const Motion& motion, ContactBlock& block) {
+  constexpr auto own = static_cast<std::size_t>(Law::memory);
   for (std::size_t l = 0; l < n; ++l) {
     const std::size_t c = first + l;
     const auto i = static_cast<std::size_t>(contacts.particle[c]);
@@ -79,14 +80,18 @@ void gatherWall(const Particles& particles, const Contacts& contacts, const std:
     block.scale[l] = particles.weightOf(i) * fraction.force;
     block.energyFraction[l] = particles.weightOf(i) * fraction.energy;
     block.effectiveRadius[l] = particles.radius[i];
-    block.rootMass[l] = std::sqrt(massAgainst(wall.mass, particles.mass[i]));
+    const double mass = massAgainst(wall.mass, particles.mass[i]);
+    block.rootMass[l] = std::sqrt(mass);
+    block.inverseMass[l] = mass > 0.0 ? 1.0 / mass : 0.0;
     block.kind[l] = laws.materials > 1 ? materialOf(particles, i) * laws.materials + wall.material : 0;
     if constexpr (Law::rotates) {
       const Vec3 spin = particles.rotates() ? particles.omega[i] : Vec3{}, wallSpin = motion.spin(c);
       block.spinSum.set(l, spin + wallSpin);
       block.spinDifference.set(l, spin - wallSpin);
     }
-    for (std::size_t m = 0; m < numbers; ++m) block.memory[m][l] = memory[c * numbers + m];
+    const double* const held = memory.data() + c * numbers;
+    for (std::size_t m = 0; m < own; ++m) block.memory[m][l] = held[m];
+    for (std::size_t m = own; m < numbers; ++m) block.motion[m - own][l] = held[m];
   }
 }
 
@@ -101,14 +106,15 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
                        const Motion& motion) {
   constexpr BlockOptions quiet{Law::rotates, true, true, false, Recall::motion};
   constexpr BlockOptions booked{Law::rotates, true, true, true, Recall::motion};
-  constexpr int recalled = Law::recalled(Recall::motion);
+  constexpr auto own = static_cast<std::size_t>(Law::memory);
   const auto numbers = static_cast<std::size_t>(laws.wallNumbers());
   const auto answerBlock = [&](std::size_t first, std::size_t end) {
     ContactBlock block;
-    std::array<ContactBlock::Row, Law::memory + recalled> held;
-    ContactBlock::Row none{};
-    for (std::size_t m = 0; m < numbers; ++m) block.memory[m] = held[m].data();
-    block.recall(Law::memory, recalled, numbers > Law::memory, none);
+    std::array<ContactBlock::Row, Law::memory + 1> held;
+    std::array<ContactBlock::Row, 6> moved;
+    for (std::size_t m = 0; m < own; ++m) block.memory[m] = held[m].data();
+    for (std::size_t m = own; m < numbers; ++m) block.motion[m - own] = moved[m - own].data();
+    block.recalls = numbers > own;
     const std::size_t n = end - first;
     gatherWall<Law>(particles, contacts, memory, numbers, laws, wall, first, n, motion, block);
     if (booking == Booking::on)
@@ -118,7 +124,9 @@ ContactWork answerWall(const Particles& particles, Contacts& contacts, std::vect
     for (std::size_t l = 0; l < n; ++l) {
       contacts.force[first + l] = block.force.at(l);
       if constexpr (Law::rotates) contacts.couple[first + l] = block.couple.at(l);
-      for (std::size_t m = 0; m < numbers; ++m) memory[(first + l) * numbers + m] = block.memory[m][l];
+      double* const to = memory.data() + (first + l) * numbers;
+      for (std::size_t m = 0; m < own; ++m) to[m] = block.memory[m][l];
+      for (std::size_t m = own; m < numbers; ++m) to[m] = block.motion[m - own][l];
       contacts.energy[first + l] = booking == Booking::on ? block.work[0][l] : 0.0;
       if constexpr (Law::memory > 0)
         contacts.sideEnergy[first + l] = booking == Booking::on ? block.work[2][l] + block.work[4][l] : 0.0;
