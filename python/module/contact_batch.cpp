@@ -68,7 +68,7 @@ void appendRow(const LawTraits& law, const ContactBlock& block, std::size_t l, d
     rows.insert(rows.end(), {vector.x, vector.y, vector.z});
   rows.push_back(moving * separating);
   for (const Vec3& vector : {slipped, turned}) rows.insert(rows.end(), {vector.x, vector.y, vector.z});
-  rows.insert(rows.end(), {block.engagement[l], block.jump[l]});
+  rows.insert(rows.end(), {block.engagement[l], block.engagementUntilEnd[l]});
   for (int c = 0; c < law.kept(); ++c) rows.push_back(block.memory[static_cast<std::size_t>(c)][l]);
 }
 

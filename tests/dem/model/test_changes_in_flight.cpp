@@ -73,6 +73,23 @@ Model onSlope(bool triangles) {
   return m;
 }
 
+/// Also by laws that remember nothing.
+TEST(ChangesInFlight, SpringsOfPairsDoNotOutliveTheirLaw) {
+  Model m;
+  m.laws = makeContactLaws(rough());
+  addParticle(m.particles, {}, {0.0, 0.05, 0.0}, 0.1, Mass{1.0});
+  addParticle(m.particles, {0.19, 0.0, 0.0}, {}, 0.1, Mass{1.0});
+  run(m, 1e-4, 20);
+  ASSERT_GT(m.work.tangentialEnergy, 0.0);
+  m.laws = makeContactLaws(ElasticLaw{{1e4}});
+  run(m, 1e-4, 1);
+  EXPECT_TRUE(m.pairs.memory().empty());
+  m.particles.v[0] = m.particles.v[1] = {};
+  m.laws = makeContactLaws(rough());
+  findForces(m);
+  EXPECT_LT(m.work.tangentialEnergy, 1e-100);
+}
+
 TEST(ChangesInFlight, WhatOtherLawsRememberedIsForgottenNotMistaken) {
   using Rolling = ContactLaw<LinearSpringDashpot, TangentialSpring, RollingAndTwisting>;
   for (const bool triangles : {false, true}) {

@@ -57,6 +57,33 @@ TEST(PairListGuards, AListThatWasKeptIsMadeAnewByAnUpdate) {
   EXPECT_EQ(b.list.builds(), builds + 1);
 }
 
+TEST(PairListGuards, NewPairsKnowOfNoMotionAndOldOnesKeepTheirs) {
+  Block b(0.01);
+  const auto motionOf = [](const PairList& list, std::size_t p) {
+    return Vec3{list.motion()[p], list.motion()[list.size() + p], list.motion()[2 * list.size() + p]};
+  };
+  b.list.prepareMotion(3, true);
+  RawVector<double>& motion = detail::partsOf(b.list).motion;
+  for (std::size_t k = 0; k < motion.size(); ++k) motion[k] = 1.0 + static_cast<double>(k);
+  const PairList before = b.list;
+  const std::vector<std::size_t> places{3, before.size() - 1};
+  PairList some = selectPairs(b.particles, before, places);
+  some.prepareMotion(3, true);
+  std::ranges::fill(detail::partsOf(some).motion, -1.0);
+  b.list.takeMemory(places, some);
+  for (const std::size_t p : places) EXPECT_EQ(motionOf(b.list, p), (Vec3{-1, -1, -1}));
+  b.list = before;
+  b.list.setReach(0.01);
+  updatePairs(b.particles, b.list, 0.0);
+  ASSERT_GT(b.list.size(), before.size());
+  for (std::size_t p = 0; p < b.list.size(); ++p) {
+    const auto old = before.find(b.list.pairs()[p]);
+    ASSERT_EQ(motionOf(b.list, p), old ? motionOf(before, *old) : Vec3{});
+  }
+  b.list.forgetMotion();
+  EXPECT_EQ(motionOf(b.list, 0), Vec3{});
+}
+
 TEST(PairListGuards, SelectedPairsHandBackWhatTheyRemember) {
   Block b(0.01);
   b.list.prepareMemory(2, 0);

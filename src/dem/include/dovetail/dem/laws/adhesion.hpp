@@ -16,7 +16,7 @@ struct ConstantCohesion {
   struct Prepared {
     double force;
     [[gnu::always_inline]] AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
-      return {-contact.jump * force, -force * contact.overlap};
+      return {-contact.engagementUntilEnd * force, -force * contact.overlap};
     }
   };
   Prepared prepare() const { return {force}; }
@@ -49,7 +49,7 @@ struct DmtAdhesion {
     double forcePerRadius;
     [[gnu::always_inline]] AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
       const double force = -forcePerRadius * contact.effectiveRadius;
-      return {contact.jump * force, force * contact.overlap};
+      return {contact.engagementUntilEnd * force, force * contact.overlap};
     }
   };
   Prepared prepare() const { return {2.0 * std::numbers::pi * work}; }
@@ -75,7 +75,7 @@ struct Cohesion {
     [[gnu::always_inline]] AdhesionResponse respond(const Contact& contact, const NormalResponse&) const {
       const double always = -(force + forcePerRadius * contact.effectiveRadius);
       const double growing = -(stiffness + pressureTimesPi * contact.effectiveRadius) * contact.overlap;
-      return {contact.jump * always + growing, (always + 0.5 * growing) * contact.overlap};
+      return {contact.engagementUntilEnd * always + growing, (always + 0.5 * growing) * contact.overlap};
     }
   };
   Prepared prepare() const { return {force, stiffness, std::numbers::pi * pressure, 2.0 * std::numbers::pi * work}; }

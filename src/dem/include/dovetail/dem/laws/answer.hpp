@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include "dovetail/dem/laws/contact_passes.hpp"
@@ -48,6 +49,32 @@ private:
   alignas(64) double rows_[parameters][blockSize];
 };
 
+template <std::size_t... C>
+inline void loadMemory(double* const* rows, [[maybe_unused]] std::size_t l, double* memory, std::index_sequence<C...>) {
+  ((memory[C] = rows[C][l]), ...);
+}
+template <std::size_t... C>
+inline void storeMemory(double* const* rows, [[maybe_unused]] std::size_t l, const double* memory, bool keep,
+                        std::index_sequence<C...>) {
+  ((rows[C][l] = keep ? memory[C] : 0.0), ...);
+}
+
+/// @param ended what a contact that no longer touches takes with it
+inline void storeWork(ContactBlock& block, std::size_t l, const ContactWork& now, const ContactWork& ended,
+                      bool touches, double scale, double normalScale) {
+  const auto put = [&](std::size_t channel, double factor, double a, double b) {
+    block.work[channel][l] = factor * (touches ? a : b);
+  };
+  put(0, normalScale, now.elasticEnergy, 0.0);
+  put(1, scale, now.dissipatedPower, 0.0);
+  put(2, scale, now.tangentialEnergy, 0.0);
+  put(3, scale, now.frictionPower, ended.frictionPower);
+  put(4, scale, now.rollingEnergy, 0.0);
+  put(5, scale, now.rollingPower, ended.rollingPower);
+  put(6, normalScale, now.plasticPower, ended.plasticPower);
+  put(7, scale, now.fracturePower, ended.fracturePower);
+}
+
 /// The law at the first n contacts, after the passes before it.
 template <class Law, BlockOptions options, class Laws>
 [[gnu::always_inline]] inline void respondAll(ContactBlock& block, std::size_t n, const Laws& laws, double dt) {
@@ -73,7 +100,7 @@ template <class Law, BlockOptions options, class Laws>
     contact.separating = passes ? block.separating[l] : separating;
     contact.separated = moving * separating;
     if constexpr (passes) contact.engagement = block.engagement[l];
-    if constexpr (Law::jumps) contact.jump = block.jump[l];
+    if constexpr (Law::jumps) contact.engagementUntilEnd = block.engagementUntilEnd[l];
     if constexpr (Law::needsSlip) {
       const Vec3 slip = velocity - separating * normal;
       contact.slip = options.recall == Recall::motion ? block.slip.at(l) : slip;

@@ -14,24 +14,24 @@ enum class Recall { nothing, approach, motion };
 /// Velocities are those of this instant, where the law's dashpots say so (PreparedParts::recall), else those of the
 /// half step before.
 struct Contact {
-  double overlap = 0.0;          ///< δ, m; > 0 while they touch
-  double overlapBefore = 0.0;    ///< δ one step ago, m; < 0 if they were apart
-  double separating = 0.0;       ///< n·velocity, m/s; > 0 while the overlap closes
-  double separated = 0.0;        ///< n·displacement in this step, while they touched, m
-  double engagement = 1.0;       ///< factor on all dashpots: what counts of the step of the first touch, and of the
-                                 ///< last one if the normal part may pull; 1 in all others
-  double jump = 1.0;             ///< the same for forces that begin or end at once, in both
-  double effectiveMass = 0.0;    ///< m₁m₂/(m₁ + m₂), kg; only where a part has `needsMass`
-  double rootMass = 0.0;         ///< its square root, kg^½
-  double inverseMass = 0.0;      ///< 1/effectiveMass, 1/kg; 0 where no dashpot asks for it
-  double effectiveRadius = 0.0;  ///< R₁R₂/(R₁ + R₂), m; only where a part has `needsRadius`
-  Vec3 normal;                   ///< unit, from the partner to the particle
-  Vec3 slip;                     ///< tangential velocity of the particle relative to the partner at the contact, m/s
-  Vec3 spin;                     ///< angular velocity of the particle minus the partner's, rad/s
-  Vec3 slipped;                  ///< tangential displacement in this step, while they touched, m
-  Vec3 turned;                   ///< relative rotation in this step, while they touched, rad
-  double dt = 0.0;               ///< step over which memories advance, s
-  double inverseDt = 0.0;        ///< 1/dt, 1/s
+  double overlap = 0.0;             ///< δ, m; > 0 while they touch
+  double overlapBefore = 0.0;       ///< δ one step ago, m; < 0 if they were apart
+  double separating = 0.0;          ///< n·velocity, m/s; > 0 while the overlap closes
+  double separated = 0.0;           ///< n·displacement in this step, while they touched, m
+  double engagement = 1.0;          ///< factor on all dashpots: what counts of the step of the first touch, and of the
+                                    ///< last one if the normal part may pull; 1 in all others
+  double engagementUntilEnd = 1.0;  ///< the same for forces that begin and end at once (ContactLaw::jumps), in both
+  double effectiveMass = 0.0;       ///< m₁m₂/(m₁ + m₂), kg; only where a part has `needsMass`
+  double rootMass = 0.0;            ///< its square root, kg^½
+  double inverseMass = 0.0;         ///< 1/effectiveMass, 1/kg; 0 where no dashpot asks for it
+  double effectiveRadius = 0.0;     ///< R₁R₂/(R₁ + R₂), m; only where a part has `needsRadius`
+  Vec3 normal;                      ///< unit, from the partner to the particle
+  Vec3 slip;                        ///< tangential velocity of the particle relative to the partner at the contact, m/s
+  Vec3 spin;                        ///< angular velocity of the particle minus the partner's, rad/s
+  Vec3 slipped;                     ///< tangential displacement in this step, while they touched, m
+  Vec3 turned;                      ///< relative rotation in this step, while they touched, rad
+  double dt = 0.0;                  ///< step over which memories advance, s
+  double inverseDt = 0.0;           ///< 1/dt, 1/s
 };
 
 struct NormalResponse {

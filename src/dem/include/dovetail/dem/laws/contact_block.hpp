@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "dovetail/dem/laws/contact.hpp"
 
@@ -58,7 +57,7 @@ struct ContactBlock {
   alignas(64) Row separating;                            ///< n·v at the instant of the force, m/s
   alignas(64) std::array<std::int64_t, blockSize> kink;  ///< 1 it begins in this step, 2 it ends in the next, 3 both
   alignas(64) Row share;                                 ///< of the step, in which they touched
-  alignas(64) Row engagement, jump;                      ///< see Contact
+  alignas(64) Row engagement, engagementUntilEnd;        ///< see Contact
 
   // Answered
   Rows3 force;                                 ///< on the particle, N
@@ -75,32 +74,6 @@ struct BlockOptions {
   bool booked = true;   ///< energies are wanted
   Recall recall = Recall::nothing;
 };
-
-template <std::size_t... C>
-inline void loadMemory(double* const* rows, [[maybe_unused]] std::size_t l, double* memory, std::index_sequence<C...>) {
-  ((memory[C] = rows[C][l]), ...);
-}
-template <std::size_t... C>
-inline void storeMemory(double* const* rows, [[maybe_unused]] std::size_t l, const double* memory, bool keep,
-                        std::index_sequence<C...>) {
-  ((rows[C][l] = keep ? memory[C] : 0.0), ...);
-}
-
-/// @param ended what a contact that no longer touches takes with it
-inline void storeWork(ContactBlock& block, std::size_t l, const ContactWork& now, const ContactWork& ended,
-                      bool touches, double scale, double normalScale) {
-  const auto put = [&](std::size_t channel, double factor, double a, double b) {
-    block.work[channel][l] = factor * (touches ? a : b);
-  };
-  put(0, normalScale, now.elasticEnergy, 0.0);
-  put(1, scale, now.dissipatedPower, 0.0);
-  put(2, scale, now.tangentialEnergy, 0.0);
-  put(3, scale, now.frictionPower, ended.frictionPower);
-  put(4, scale, now.rollingEnergy, 0.0);
-  put(5, scale, now.rollingPower, ended.rollingPower);
-  put(6, normalScale, now.plasticPower, ended.plasticPower);
-  put(7, scale, now.fracturePower, ended.fracturePower);
-}
 
 /// Sum of the work of the first n contacts, in an order of their own: eight interleaved sums, then those.
 ContactWork sumWork(const ContactBlock& block, std::size_t n);

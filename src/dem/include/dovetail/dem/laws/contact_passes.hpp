@@ -18,9 +18,8 @@ struct Meeting {
   double drift;    ///< what the turning of the normal in a step adds to what is remembered, m/s along the normal
 };
 
-/// @tparam recall  approach: drift is that of n·v, v·(dn/dt) dt; motion: of the velocity at the contact, which turns
-/// with
-///                 the arms (their part along the normal; the tangential one is that of spins about the normal)
+/// @tparam recall  what is remembered. approach: drift is that of n·v, v·(dn/dt) dt. motion: that of the velocity at
+///                 the contact, as the arms turn; its part along the normal (the rest needs spin about the normal)
 template <bool spins, Recall recall>
 [[gnu::always_inline]] inline Meeting meetingOf(const ContactBlock& block, std::size_t l, [[maybe_unused]] double dt) {
   const Vec3 separation = block.normal.at(l);
@@ -110,7 +109,7 @@ template <class Law, BlockOptions options, class Laws>
     block.kink[l] = first | last;
     block.share[l] = 1.0;
     block.engagement[l] = 1.0;
-    if constexpr (Law::jumps) block.jump[l] = 1.0;
+    if constexpr (Law::jumps) block.engagementUntilEnd[l] = 1.0;
   }
   return any != 0;
 }
@@ -156,7 +155,7 @@ void engage(ContactBlock& block, std::size_t n, const Laws& laws, double dt) {
     const double fraction = begins ? overlap / closed : (overlap + law.reach()) / (block.separating[l] * dt);
     if (begins) block.share[l] = fraction;
     if (begins || dampsToTheEnd(law.normal)) block.engagement[l] = engagementIn(law.normal, fraction);
-    if constexpr (Law::jumps) block.jump[l] = 0.5 + fraction;
+    if constexpr (Law::jumps) block.engagementUntilEnd[l] = 0.5 + fraction;
   }
 }
 

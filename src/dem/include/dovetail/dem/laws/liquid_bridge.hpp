@@ -33,7 +33,7 @@ struct LiquidBridge {
       const bool touches = contact.overlap > 0.0;
       const double atRupture = pull / scale * work(scale * rupture);
       const bool formed = held[0] > 0.0, again = formed && touches && !(contact.overlapBefore > 0.0);
-      const double engagement = again ? 1.0 : contact.jump;
+      const double engagement = again ? 1.0 : contact.engagementUntilEnd;
       held[0] = touches || formed ? atRupture : 0.0;
       if (!(held[0] > 0.0)) return {};
       if (touches) return {-engagement * pull, -pull * contact.overlap};

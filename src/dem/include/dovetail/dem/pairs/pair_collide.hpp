@@ -177,7 +177,7 @@ template <class Law>
 ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt, Booking booking) {
   if constexpr (Law::memory > 0) requireStep(dt);
   const Recall recall = laws.recall();
-  if (Law::memory > 0) list.prepareMemory(Law::memory, Law::turns);
+  list.prepareMemory(Law::memory, Law::turns);  // what another law has left is forgotten
   list.prepareMotion(Law::recalled(recall), recall == Recall::motion);
   PairParts& parts = partsOf(list);
   PairRows rows{.spins = Law::rotates,
