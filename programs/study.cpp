@@ -10,6 +10,7 @@
 #include "energy_study.hpp"
 #include "program/options.hpp"
 #include "study_cases.hpp"
+#include "study_errors.hpp"
 #include "verbs.hpp"
 
 namespace dovetail::program {
@@ -22,56 +23,44 @@ struct Settings : StudySettings {
   bool energy = false;
 };
 
-/// Runs that the figure of curves shows.
-constexpr std::size_t shownCurves = 11;
-
-/// The column of the runs beside the reference.
-void drawCurves(const report::Study& study, const Settings& settings) {
-  const std::string &x = settings.against->along, &y = settings.error;
-  report::Figure figure{"curves", y + " along " + x, {x, false}, {y, false}, {}, {}};
-  figure.curves.push_back(curveIn(settings.against->file, x, y, true));
-  figure.curves.back().name = "reference";
-  for (std::size_t k = 0; k < study.cases.size() && figure.curves.size() <= shownCurves; ++k) {
-    const fs::path file = folderOf(settings, k) / "series.csv";
-    if (!fs::exists(file)) continue;
-    figure.curves.push_back(curveIn(file, x, y, false));
-    figure.curves.back().name = study.cases[k].label;
-  }
-  io::writeFileAtomically(study.folder / "curves.svg",
-                          "<!-- " + io::provenance().front().second + " -->\n" + report::svgFileOf(figure));
-}
-
 /// Names of files beside the tables.
 std::vector<std::string> moreFilesOf(const Settings& settings) {
   std::vector<std::string> files;
   if (settings.energy) files = energyStudyFiles();
-  if (settings.against) files.emplace_back("curves.svg");
+  for (const std::string& file : curveFiles(settings)) files.push_back(file);
   return files;
 }
 
 /// The command line as it was written.
 struct Written {
-  std::string file, error, against, along;
+  std::string file, against, along, repeat;
   report::Norm norm = report::Norm::mean;
   std::optional<double> exact;
-  std::vector<std::string> over, set, show;
+  std::vector<std::string> over, set, show, error;
 };
 
 /// What the file plans, where it is a study, and over it what was written.
-void plan(const Written& written, const Options& options, Settings& settings) {
+void takeAxes(const Written& written, Settings& settings) {
   if (isStudy(written.file))
     static_cast<StudyPlan&>(settings) = readStudy(written.file);
   else
-    settings.scene = written.file;
+    settings.ways = {{"", "", written.file, {}, {}}};
   for (const std::string& text : written.set) settings.set.push_back(settingFrom(text));
-  if (!written.over.empty()) settings.over.clear();
-  for (const std::string& text : written.over) settings.over.push_back(axisFrom(text, "--over " + text));
-  if (settings.over.empty())
+  Way& first = settings.ways.front();
+  if (!written.over.empty() && !first.name.empty())
+    throw InputError("each way of the study has axes of its own", "--over", "change them in " + written.file);
+  if (!written.over.empty()) first.over.clear();
+  for (const std::string& text : written.over) first.over.push_back(axisFrom(text, "--over " + text));
+  if (!written.repeat.empty()) settings.repeat = axisFrom(written.repeat, "--repeat " + written.repeat);
+  if (first.name.empty() && first.over.empty() && !settings.repeat)
     throw InputError("there is nothing to vary", "dovetail study", "give --over KEY=A,B,C, or the file of a study");
+}
+
+void takeError(const Written& written, const Options& options, Settings& settings) {
   if (!written.show.empty()) settings.columns = written.show;
   if (!written.error.empty()) settings.error = written.error;
   if (written.exact || !written.against.empty()) settings.exact = written.exact, settings.against.reset();
-  if (!written.against.empty()) settings.against = Against{fs::absolute(written.against).string()};
+  if (!written.against.empty()) settings.against = Against{fs::absolute(written.against).string(), "", ""};
   if (settings.exact && settings.against)
     throw InputError("there are two references, \"exact\" and \"against\"", written.file, "leave out one of them");
   if (!settings.against)
@@ -80,9 +69,13 @@ void plan(const Written& written, const Options& options, Settings& settings) {
     throw InputError("the reference has no column to be compared with", settings.against->file, "add --error COLUMN");
   if (!written.along.empty()) settings.against->along = written.along;
   if (options.given("--norm")) settings.against->norm = written.norm;
-  if (settings.error.empty()) settings.error = ownError;
-  if (settings.against)  // refused before anything is run
-    curveIn(settings.against->file, settings.against->along, settings.error, true);
+  if (settings.error.size() > 1 && !(settings.against && settings.against->norm == report::Norm::relative))
+    throw InputError("errors of several columns cannot be added up", "--error " + settings.error[1],
+                     "give one, or a reference curve with the norm relative");
+  if (settings.error.empty()) settings.error = {ownError};
+  for (const std::string& column : settings.error)  // refused before anything is run
+    if (settings.against && settings.against->way.empty())
+      curveIn(settings.against->file, settings.against->along, column, true);
 }
 
 }  // namespace
@@ -98,8 +91,11 @@ bool studyScene(int argc, char** argv) {
   options.texts("--over KEY=A,B,C", written.over, "values of a parameter of \"let\", or at a path such as steps.dt");
   options.texts("--set KEY=VALUE", written.set, "the same for all runs");
   options.texts("--show COLUMN", written.show, "of the series, shown in the tables at the end of the run");
-  options.text("--error COLUMN", written.error,
-               "of the series: its magnitude at the end is the error; default: the largest residual");
+  options.text("--repeat KEY=A,B,C", written.repeat,
+               "the same, such as a seed, whose runs are one point of the figure, with their mean and range");
+  options.texts("--error COLUMN", written.error,
+                "of the series: its magnitude at the end is the error; default: the largest residual; several for "
+                "--norm relative");
   options.number("--exact VALUE", written.exact, {-1e300, 1e300, true, true, "a number"},
                  "exact value of the column: the error is the difference from it");
   options.text("--against FILE", written.against,
@@ -110,14 +106,20 @@ bool studyScene(int argc, char** argv) {
   options.flag("--energy", settings.energy,
                "writes energy.html and .csv too: residual of the energy, its order in the step, growth and channels");
   options.integer("--workers N", settings.workers, 1, 1024, "processes at once; default: one for each processor");
+  options.integer("--threads N", settings.threadsEach, 1, 1024,
+                  "of each run; default: the processors over the workers");
   options.flag("--replace", settings.replace, "replaces an earlier study in the folder");
+  options.flag("--continue", settings.goOn,
+               "keeps the runs of an earlier study in the folder that finished, and resumes those with checkpoints");
   options.text("--out DIR", out, "folder; <file>-study if not given");
   options.flag("--keys", keys, "prints a reference of the keys of studies");
   if (!options.parse(argc, argv)) return true;
   if (keys) return std::cout << studyReference(), true;
   if (written.file.empty()) throw InputError("FILE is missing", "dovetail study", "name a scene or a study");
   options.refuseBoth("--exact", "--against");
-  plan(written, options, settings);
+  options.refuseBoth("--replace", "--continue");
+  takeAxes(written, settings);
+  takeError(written, options, settings);
   if (hierarchical::ranksOfFarm() > 1) {  // processes of a study cannot share the ranks
     if (options.given("--workers"))
       throw InputError("a study on ranks runs one case after the other", "--workers", "leave it out, or mpirun");
@@ -129,7 +131,7 @@ bool studyScene(int argc, char** argv) {
   prepareFolders(study, settings, moreFilesOf(settings));
   if (!report::runStudy(study, std::cout, std::cerr)) return false;
   if (settings.energy) writeEnergyStudy(study.folder);
-  if (settings.against) drawCurves(study, settings);
+  if (settings.against) drawCurves(settings);
   std::cout << "tables and figure in " << study.folder.string() << '\n';
   return true;
 }

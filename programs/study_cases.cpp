@@ -7,11 +7,13 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/plain_text.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/report/text.hpp"
 #include "dovetail/scene/execute.hpp"
 #include "dovetail/scene/read.hpp"
 #include "energy_study.hpp"
+#include "study_errors.hpp"
 
 namespace dovetail::program {
 
@@ -43,55 +45,56 @@ void requireColumn(const scene::Scene& scene, const std::string& name, const std
   throw InputError("the series has no column of this name", option + " " + name, "take one of " + list);
 }
 
-bool hasColumn(const io::TimeSeries& series, const std::string& name) {
-  return std::ranges::find(series.names(), name) != series.names().end();
-}
-
-/// All stages, with files in the folder.
-report::Json runStages(const scene::Scene& scene, const fs::path& folder) {
+/// All stages, with files in the folder, or those that are left.
+report::Json runStages(const scene::Scene& scene, const fs::path& folder, bool resumes) {
   const fs::path logFile = folder / "log.txt";
-  io::writeFileAtomically(logFile, io::provenanceLines(io::provenance(), "# "));
+  if (!resumes) io::writeFileAtomically(logFile, io::provenanceLines(io::provenance(), "# "));
   std::ofstream log(logFile, std::ios::app);
-  const bool finished = scene::run(scene, {.folder = folder, .progress = false}, log);
+  const scene::RunOptions options{.folder = folder, .progress = false};
+  const bool finished = resumes ? scene::resume(options, log) : scene::run(scene, options, log);
   return {{"finished", finished}, {"failure", finished ? "" : "it was interrupted"}};
 }
 
-/// The error of a run beside the references. @throws InputError if its figures do not have it
-void addError(const fs::path& folder, const StudySettings& settings, report::Json& figures) {
-  if (!figures.contains(settings.error) || !figures[settings.error].is_number())
-    throw InputError("the series has no column of this name", "--error " + settings.error,
-                     "take one of " + (folder / "series.csv").string());
-  if (settings.exact) figures["error"] = figures[settings.error].get<double>() - *settings.exact;
-  if (const auto& against = settings.against) {
-    const report::CurveError found =
-        report::distanceFrom(curveIn(against->file, against->along, settings.error, true),
-                             curveIn(folder / "series.csv", against->along, settings.error, false), against->norm);
-    figures["error"] = found.value;
-    figures["covered"] = found.covered;
-  }
+/// Before a reference is asked for them.
+void requireFigures(const fs::path& folder, const StudySettings& settings, const report::Json& figures) {
+  for (const std::string& column : settings.error)
+    if (!figures.contains(column) || !figures[column].is_number())
+      throw InputError("the series has no column of this name", "--error " + column,
+                       "take one of " + (folder / "series.csv").string());
 }
 
-report::Json runCase(const scene::Scene& scene, const fs::path& folder, const StudySettings& settings) {
-  if (settings.workers > 0) setThreads(std::max(1, detail::processors() / settings.workers));
+/// What the stages of a run took, in all programs that ran them, s.
+double secondsOfStages(const fs::path& folder) {
+  double sum = 0.0;
+  const report::Json summary = report::Json::parse(io::readWhole(folder / "summary.json", "summary"));
+  for (const report::Json& stage : summary.at("times").at("stages")) sum += stage.at("seconds").get<double>();
+  return sum;
+}
+
+report::Json runCase(const scene::Scene& scene, const fs::path& folder, const StudySettings& settings, bool resumes) {
+  if (settings.threadsEach)
+    setThreads(*settings.threadsEach);
+  else if (settings.workers > 0)
+    setThreads(std::max(1, detail::processors() / settings.workers));
   const auto begun = std::chrono::steady_clock::now();
   const report::Json own = settings.act ? settings.act(scene) : report::Json::object();
-  report::Json figures = settings.act ? report::Json{{"finished", true}} : runStages(scene, folder);
-  figures["wall_seconds"] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  report::Json figures = settings.act ? report::Json{{"finished", true}} : runStages(scene, folder, resumes);
+  const double here = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  figures["wall_seconds"] = resumes && figures["finished"] == true ? secondsOfStages(folder) : here;
   if (!settings.act && fs::exists(folder / "series.csv")) addSeries(folder / "series.csv", figures);
   figures.update(own);
   if (settings.measure && figures["finished"] == true) figures.update(settings.measure(folder));
-  if (!settings.error.empty()) addError(folder, settings, figures);
+  requireFigures(folder, settings, figures);
   return figures;
 }
 
 /// Nothing if the values cannot be: then the refusal says why.
-std::optional<scene::Scene> sceneOf(const StudySettings& settings, const std::vector<std::string>& values,
-                                    std::optional<InputError>& refusal) {
+std::optional<scene::Scene> sceneOf(const StudySettings& settings, const std::string& file,
+                                    const std::vector<std::string>& values, std::optional<InputError>& refusal) {
   try {
-    scene::Scene scene = settings.read ? settings.read(values) : scene::readScene(settings.scene, values);
+    scene::Scene scene = settings.read ? settings.read(values) : scene::readScene(file, values);
     if (scene.output.series || !settings.needsSeries()) return scene;
-    refusal.emplace("the scene writes no series to compare", settings.scene,
-                    "add output.series, or --set output.series=1ms");
+    refusal.emplace("the scene writes no series to compare", file, "add output.series, or --set output.series=1ms");
   } catch (const InputError& error) {
     refusal = error;
   }
@@ -100,34 +103,58 @@ std::optional<scene::Scene> sceneOf(const StudySettings& settings, const std::ve
 
 std::vector<std::string> shownFigures(const StudySettings& settings) {
   std::vector<std::string> shown = settings.columns;
-  if (!settings.error.empty() && std::ranges::find(shown, settings.error) == shown.end())
-    shown.push_back(settings.error);
+  for (const std::string& column : settings.error)
+    if (std::ranges::find(shown, column) == shown.end()) shown.push_back(column);
   if (settings.hasError()) shown.emplace_back("error");
   if (settings.against) shown.emplace_back("covered");
   return shown;
 }
 
 void requireColumns(const scene::Scene& scene, const StudySettings& settings) {
-  requireColumn(scene, settings.error, "--error");
+  for (const std::string& column : settings.error) requireColumn(scene, column, "--error");
   for (const std::string& column : settings.columns) requireColumn(scene, column, "--show");
   if (settings.against) requireColumn(scene, settings.against->along, "--along");
 }
 
-}  // namespace
-
-report::Curve curveIn(const fs::path& file, const std::string& x, const std::string& y, bool isReference) {
-  const io::TimeSeries series = io::readCsv(file);
-  const auto curve = [&](std::span<const double> a, std::span<const double> b) {
-    return report::Curve{file.string(), {a.begin(), a.end()}, {b.begin(), b.end()}};
-  };
-  if (isReference && series.names().size() == 2 && !(hasColumn(series, x) && hasColumn(series, y)))
-    return curve(series.column(std::size_t{0}), series.column(std::size_t{1}));
-  for (const std::string& name : {x, y})
-    if (!hasColumn(series, name))
-      throw InputError("there is no column " + name, file.string(),
-                       isReference ? "name its columns as in series.csv, or give two: x and y" : "correct its name");
-  return curve(series.column(x), series.column(y));
+/// What the repeats of a run have in common; empty: it has no name but the label.
+std::string pointOf(const StudySettings& settings, const StudyRun& run) {
+  if (!settings.repeat && run.way.empty()) return "";
+  if (!run.point.empty()) return run.point;
+  return run.way.empty() ? "all" : run.way;
 }
+
+/// What an earlier study in the folder left of a run, where the scene is still the same.
+struct Earlier {
+  std::optional<report::Json> figures;  ///< of the run, if it need not be done again
+  bool resumes = false;                 ///< from a checkpoint
+};
+
+/// @param rows  of the earlier study
+Earlier earlierOf(const fs::path& folder, const StudyRun& run, const scene::Scene& scene,
+                  const std::vector<report::Json>& rows) {
+  if (!fs::exists(folder / "scene.json") || sceneText(scene::readRun(folder)) != sceneText(scene)) return {};
+  for (const report::Json& row : rows)
+    if (row["label"] == run.label() && row["outcome"] == "finished") {
+      report::Json figures = row;
+      for (const char* const key : {"label", "way", "point", "outcome", "message", "settings", "on_front"})
+        figures.erase(key);
+      for (const auto& [key, value] : row.items())
+        if (key == "covered" || key.starts_with("error")) figures.erase(key);
+      return {figures, false};
+    }
+  return {{}, fs::exists(folder / "checkpoint.state")};
+}
+
+std::vector<report::Json> earlierRows(const StudySettings& settings) {
+  const fs::path file = settings.folder / "study.json";
+  if (!settings.goOn || !fs::exists(file)) return {};
+  const report::Json study = report::Json::parse(io::readWhole(file, "study"), nullptr, false);
+  if (study.is_discarded() || !study.contains("runs"))
+    throw InputError("this is no table of a study", file.string(), "give --replace to begin anew");
+  return study["runs"];
+}
+
+}  // namespace
 
 fs::path folderOf(const StudySettings& settings, std::size_t run) {
   return settings.folder / report::format("%03zu", run + 1);
@@ -139,37 +166,42 @@ report::Study studyOf(const StudySettings& settings) {
   study.name = "study";
   study.folder = settings.folder;
   study.workers = settings.workers;
-  if (!settings.error.empty()) study.fronts = {{settings.hasError() ? "error" : settings.error, "on_front"}};
+  if (!settings.error.empty()) study.fronts = {{settings.hasError() ? "error" : settings.error.front(), "on_front"}};
   study.shown = shownFigures(settings);
+  const std::vector<StudyRun> runs = runsOf(settings);
+  if (settings.hasError())
+    study.relate = [=, &settings](std::vector<report::Json>& rows) { return addErrors(settings, runs, rows); };
+  const std::vector<report::Json> rows = earlierRows(settings);
   std::optional<InputError> first;
-  bool anyRuns = false;
-  for (const StudyRun& run : combinations(settings.over)) {
+  std::vector<std::string> checked;  // ways
+  for (const StudyRun& run : runs) {
     std::vector<std::string> all;
+    for (const auto* const some : {&settings.set, &run.common, &run.set})
+      for (const Setting& one : *some) all.push_back(one.key + "=" + one.value);
     io::KeyValues values;
-    for (const Setting& one : settings.set) all.push_back(one.key + "=" + one.value);
-    for (const Setting& one : run.set) {
-      all.push_back(one.key + "=" + one.value);
-      values.emplace_back(one.key, one.value);
-    }
+    for (const Setting& one : run.set) values.emplace_back(one.key, one.value);
     const fs::path folder = folderOf(settings, study.cases.size());
     if (!settings.act) values.emplace_back("folder", folder.filename().string());
     std::optional<InputError> refusal;
-    const std::optional<scene::Scene> scene = sceneOf(settings, all, refusal);
-    if (scene && !anyRuns && settings.needsSeries()) requireColumns(*scene, settings);
-    anyRuns = anyRuns || scene;
+    const std::optional<scene::Scene> scene = sceneOf(settings, run.scene, all, refusal);
+    if (scene && settings.needsSeries() && std::ranges::find(checked, run.way) == checked.end())
+      requireColumns(*scene, settings);
+    if (scene) checked.push_back(run.way);
     if (!first) first = refusal;
-    study.cases.push_back({run.label, values, [=, &settings] {
-                             if (refusal) throw InputError(*refusal);
-                             return runCase(*scene, folder, settings);
-                           }});
+    const Earlier earlier = scene && settings.goOn ? earlierOf(folder, run, *scene, rows) : Earlier{};
+    const auto work = [=, &settings] {
+      if (refusal) throw InputError(*refusal);
+      return earlier.figures ? *earlier.figures : runCase(*scene, folder, settings, earlier.resumes);
+    };
+    study.cases.push_back({run.label(), values, work, run.way, pointOf(settings, run)});
   }
-  if (!anyRuns) throw InputError(*first);
+  if (checked.empty()) throw InputError(*first);
   return study;
 }
 
 void prepareFolders(const report::Study& study, const StudySettings& settings, const std::vector<std::string>& more) {
   const std::size_t runs = settings.act ? 0 : study.cases.size();
-  for (std::size_t k = 0; !settings.replace && k < runs; ++k) io::requireNoRun(folderOf(settings, k));
+  for (std::size_t k = 0; !settings.replace && !settings.goOn && k < runs; ++k) io::requireNoRun(folderOf(settings, k));
   std::vector<std::string> files = report::filesOf(study);
   files.insert(files.end(), more.begin(), more.end());
   io::prepareOutputFolder(study.folder, files);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,11 @@ inline constexpr const char* ownError = "largest_residual_J";
 /// The plan, and how it is carried out.
 struct StudySettings : StudyPlan {
   std::filesystem::path folder;
-  int workers = threads();  ///< processes at once; 0: one run after the other in this process
+  int workers = threads();              ///< processes at once; 0: one run after the other in this process
+  std::optional<int> threadsEach = {};  ///< of each run; not given: the processors shared among the processes
   bool replace = false;
-  /// The scene with these settings; empty: that of the plan's file.
+  bool goOn = false;  ///< keeps what finished in the folder, and resumes what has checkpoints
+  /// The scene with these settings; empty: that of the way's file.
   std::function<scene::Scene(const std::vector<std::string>& settings)> read = {};
   /// Figures of a run by steps of its own, which writes no files; empty: all stages are run.
   std::function<report::Json(const scene::Scene&)> act = {};
@@ -41,12 +44,9 @@ std::filesystem::path folderOf(const StudySettings& settings, std::size_t run);
 /// is run. @param settings  must outlive the study  @throws InputError
 report::Study studyOf(const StudySettings& settings);
 
-/// Makes the folders. @param more  names of files beside those of report::runStudy
-/// @throws InputError as io::prepareOutputFolder, and for earlier runs that are not to be replaced
+/// Makes the folders of the runs that are to begin. @param more  names of files beside those of report::runStudy
+/// @throws InputError as io::prepareOutputFolder, and for earlier runs that are neither to be replaced nor gone on with
 void prepareFolders(const report::Study& study, const StudySettings& settings,
                     const std::vector<std::string>& more = {});
-
-/// The columns of these names; of a reference with two columns of other names, these two. @throws InputError
-report::Curve curveIn(const std::filesystem::path& file, const std::string& x, const std::string& y, bool isReference);
 
 }  // namespace dovetail::program

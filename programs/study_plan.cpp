@@ -25,43 +25,50 @@ void describe(Fields& f, Axis& v) {
   f.text({"values", "of the key, with commas between them: \"1 mm, 2 mm\""}, v.values, false);
   f.list({"points", "in place of key and values: places of the axis by name, each with any settings"}, v.points);
 }
+void describe(Fields& f, Way& v) {
+  f.where(v.where);
+  f.text({"name", "of its curve in the figure, and before the labels of its runs"}, v.name, true);
+  f.file({"scene", "file of the scene"}, v.scene);
+  f.list({"set", "values of the scene's keys, the same for all its runs"}, v.set);
+  f.list({"over", "axes, as of a study; a single run if not given"}, v.over);
+}
 void describe(Fields& f, Against& v) {
-  static constexpr const char* norms[] = {"mean", "largest", "end"};
-  f.file({"file", "CSV file with the columns, such as series.csv of a run; or with two columns, x and y"}, v.file);
+  static constexpr const char* norms[] = {"mean", "largest", "end", "relative"};
+  f.file({"file", "CSV file with the columns, such as series.csv of a run; or with two columns, x and y"}, v.file,
+         false);
+  f.text({"way", "in place of a file: name of the way whose run is the reference"}, v.way, false);
+  f.text({"point", "label of that run, as in the tables; not needed where the way has one"}, v.point, false);
   f.text({"along", "column of x"}, v.along, false);
-  f.choice({"norm", "root of the mean square, largest magnitude, or value at the end of the difference"}, v.norm,
-           norms);
+  f.choice({"norm",
+            "root of the mean square, largest magnitude, or value at the end of the difference; or the first "
+            "over that of the reference"},
+           v.norm, norms);
 }
 
 namespace {
 
-void describeStudy(Fields& f, StudyPlan& v, std::string& columns) {
+/// What is text in the file, and where a study has a single way.
+struct Read {
+  Way only;
+  std::string columns, error;
+};
+
+void describeStudy(Fields& f, StudyPlan& v, Read& read) {
   f.includes({"include", "other files, whose keys come first"});
-  f.file({"scene", "file of the scene"}, v.scene);
-  f.list({"set", "values of the scene's keys, the same for all runs"}, v.set);
-  f.list({"over", "axes; the study runs every combination of their points"}, v.over, true);
-  f.text({"columns", "of the series, with commas between them: shown in the tables, at the end"}, columns, false);
-  f.text({"error", "column of the series: its magnitude at the end is the error; the largest residual if not given"},
-         v.error, false);
+  f.file({"scene", "file of the scene"}, read.only.scene, false);
+  f.list({"over", "axes; the study runs every combination of their points"}, read.only.over);
+  f.list({"ways", "in place of scene and over: several scenes of one problem, each with axes of its own"}, v.ways);
+  f.list({"set", "values of the scenes' keys, the same for all runs"}, v.set);
+  f.object({"repeat", "an axis such as the seed: its runs are one point of the figure, with their mean and range"},
+           v.repeat);
+  f.text({"columns", "of the series, with commas between them: shown in the tables, at the end"}, read.columns, false);
+  f.text({"error",
+          "column of the series: its magnitude at the end is the error; the largest residual if not given; "
+          "several, with commas between them, for relative distances: root of their mean square"},
+         read.error, false);
   f.number({"exact", "value of the column: the error is the difference from it"}, v.exact,
            scene::any(scene::unit::none));
   f.object({"against", "a curve: the error is the distance of the column from it"}, v.against);
-}
-
-/// Parts between commas; commas in brackets and in quotation marks part nothing.
-std::vector<std::string> partsOf(const std::string& text) {
-  std::vector<std::string> parts{""};
-  int depth = 0;
-  bool quoted = false;
-  for (const char c : text) {
-    if (c == '"') quoted = !quoted;
-    if (!quoted) depth += (c == '[' || c == '{' || c == '(') - (c == ']' || c == '}' || c == ')');
-    if (c == ',' && depth == 0 && !quoted)
-      parts.emplace_back();
-    else if (c != ' ' || !parts.back().empty())
-      parts.back() += c;
-  }
-  return parts;
 }
 
 std::vector<Point> pointsOf(const Axis& axis) {
@@ -75,26 +82,82 @@ std::vector<Point> pointsOf(const Axis& axis) {
   return points;
 }
 
+void requireAxes(const std::vector<Axis>& axes) {
+  for (const Axis& axis : axes)
+    if (axis.key.empty() == axis.points.empty() || axis.key.empty() != axis.values.empty())
+      throw InputError("the axis has no single list of points", axis.where,
+                       "write \"key\" with \"values\", or \"points\"");
+}
+
+void requireWays(const StudyPlan& plan) {
+  for (const Way& way : plan.ways) {
+    requireAxes(way.over);
+    if (std::ranges::count(plan.ways, way.name, &Way::name) > 1)
+      throw InputError("two ways are named \"" + way.name + "\"", way.where, "give each a name of its own");
+  }
+}
+
+/// Of the study's own runs: the point that the rest is held to.
+void findReference(const StudyPlan& plan, Against& against, const std::string& file) {
+  std::vector<std::string> points;
+  for (const StudyRun& run : runsOf(plan))
+    if (run.way == against.way && std::ranges::find(points, run.point) == points.end()) points.push_back(run.point);
+  std::string list;
+  for (const std::string& point : points) list += (list.empty() ? "" : "; ") + point;
+  if (points.empty())
+    throw InputError("there is no way \"" + against.way + "\"", file + ", against.way", "name one of \"ways\"");
+  if (against.point.empty() && points.size() == 1) return void(against.point = points.front());
+  if (std::ranges::find(points, against.point) == points.end())
+    throw InputError(
+        against.point.empty() ? "the way has several points" : "the way has no point \"" + against.point + "\"",
+        file + ", against.point", "take one of " + list);
+}
+
 }  // namespace
 
 bool isStudy(const std::string& file) {
   const report::Json json = report::Json::parse(scene::textOfFile(file).text, nullptr, false, true);
-  return json.is_object() && json.contains("scene");
+  return json.is_object() && (json.contains("scene") || json.contains("ways"));
 }
 
 StudyPlan readStudy(const std::string& file) {
   StudyPlan plan;
-  std::string columns;
+  Read read;
   scene::readFields(scene::textOfFile(file), {}, [&](Fields& f) {
     plan = {};
-    describeStudy(f, plan, columns);
+    read = {};
+    describeStudy(f, plan, read);
   });
-  for (const Axis& axis : plan.over)
-    if (axis.key.empty() == axis.points.empty() || axis.key.empty() != axis.values.empty())
-      throw InputError("the axis has no single list of points", axis.where,
-                       "write \"key\" with \"values\", or \"points\"");
-  if (!columns.empty()) plan.columns = partsOf(columns);
+  if (plan.ways.empty())
+    plan.ways = {read.only};
+  else if (!read.only.scene.empty() || !read.only.over.empty())
+    throw InputError("there are \"ways\" beside a scene or axes of the study's own", file,
+                     "give each way its scene and its axes");
+  requireWays(plan);
+  if (plan.repeat) requireAxes({*plan.repeat});
+  if (!read.columns.empty()) plan.columns = partsOf(read.columns);
+  if (!read.error.empty()) plan.error = partsOf(read.error);
+  if (plan.against) {
+    if (plan.against->file.empty() == plan.against->way.empty())
+      throw InputError("the reference is no single one", file + ", against", "give \"file\", or \"way\"");
+    if (plan.against->file.empty()) findReference(plan, *plan.against, file);
+  }
   return plan;
+}
+
+std::vector<std::string> partsOf(const std::string& text) {
+  std::vector<std::string> parts{""};
+  int depth = 0;
+  bool quoted = false;
+  for (const char c : text) {
+    if (c == '"') quoted = !quoted;
+    if (!quoted) depth += (c == '[' || c == '{' || c == '(') - (c == ']' || c == '}' || c == ')');
+    if (c == ',' && depth == 0 && !quoted)
+      parts.emplace_back();
+    else if (c != ' ' || !parts.back().empty())
+      parts.back() += c;
+  }
+  return parts;
 }
 
 Axis axisFrom(const std::string& text, const std::string& where) {
@@ -111,18 +174,33 @@ Setting settingFrom(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-std::vector<StudyRun> combinations(const std::vector<Axis>& axes) {
-  std::vector<StudyRun> all{{}};
-  for (const Axis& axis : axes) {
-    std::vector<StudyRun> more;
-    for (const StudyRun& some : all)
-      for (const Point& point : pointsOf(axis)) {
-        more.push_back(some);
-        more.back().label += (some.label.empty() ? "" : ", ") + point.name;
-        more.back().set.insert(more.back().set.end(), point.set.begin(), point.set.end());
-      }
-    all = std::move(more);
-    if (all.size() > 10000) throw InputError("there are more than 10000 runs", axis.where, "give fewer values");
+std::string StudyRun::label() const {
+  std::string text = point;
+  if (!repeat.empty()) text += (text.empty() ? "" : ", ") + repeat;
+  if (way.empty()) return text;
+  return way + (text.empty() ? "" : ": ") + text;
+}
+
+std::vector<StudyRun> runsOf(const StudyPlan& plan) {
+  std::vector<StudyRun> all;
+  for (const Way& way : plan.ways) {
+    std::vector<StudyRun> some{{way.scene, way.name, "", "", way.set, {}}};
+    const auto multiply = [&](const Axis& axis, std::string StudyRun::*label) {
+      std::vector<StudyRun> more;
+      for (const StudyRun& run : some)
+        for (const Point& point : pointsOf(axis)) {
+          more.push_back(run);
+          std::string& name = more.back().*label;
+          name += (name.empty() ? "" : ", ") + point.name;
+          more.back().set.insert(more.back().set.end(), point.set.begin(), point.set.end());
+        }
+      some = std::move(more);
+      if (all.size() + some.size() > 10000)
+        throw InputError("there are more than 10000 runs", axis.where, "give fewer values");
+    };
+    for (const Axis& axis : way.over) multiply(axis, &StudyRun::point);
+    if (plan.repeat) multiply(*plan.repeat, &StudyRun::repeat);
+    all.insert(all.end(), some.begin(), some.end());
   }
   return all;
 }
@@ -130,8 +208,8 @@ std::vector<StudyRun> combinations(const std::vector<Axis>& axes) {
 std::string studyReference() {
   return scene::referenceText("study", [](Fields& f) {
     StudyPlan plan;
-    std::string columns;
-    describeStudy(f, plan, columns);
+    Read read;
+    describeStudy(f, plan, read);
   });
 }
 

@@ -25,43 +25,60 @@ struct Axis {
   std::vector<Point> points;
 };
 
-/// A curve that the series of all runs are held to.
+/// A curve that the series of the runs are held to.
 struct Against {
-  std::string file;              ///< CSV file, or folder of a run
+  std::string file;              ///< CSV file; or
+  std::string way, point;        ///< runs of the study: each repeat is held to the one with the same value
   std::string along = "time_s";  ///< column of x
   report::Norm norm = report::Norm::mean;
 };
 
-struct StudyPlan {
+/// A scene, and what is varied in it.
+struct Way {
+  std::string where;
+  std::string name;  ///< empty: the only one
   std::string scene;
   std::vector<Setting> set;
   std::vector<Axis> over;
+};
+
+struct StudyPlan {
+  std::vector<Way> ways;
+  std::vector<Setting> set;          ///< of all ways
+  std::optional<Axis> repeat;        ///< the runs of a point, such as one for each seed
   std::vector<std::string> columns;  ///< to be shown
-  std::string error;                 ///< column; empty: the largest residual
+  std::vector<std::string> error;    ///< columns; empty: the largest residual
   std::optional<double> exact;
   std::optional<Against> against;
 };
 
-inline constexpr const char* normWords = "mean|largest|end";
+inline constexpr const char* normWords = "mean|largest|end|relative";
 
-/// Whether the file is a study rather than a scene: it names one.
+/// Whether the file is a study rather than a scene: it names some.
 bool isStudy(const std::string& file);
 
-/// @throws InputError as scene::readScene; if an axis has neither or both of "key" and "points"
+/// @throws InputError as scene::readScene; if an axis has neither or both of "key" and "points", if there are ways
+/// beside a scene of its own, or two of one name, or if the reference is no single point of the study
 StudyPlan readStudy(const std::string& file);
 
+/// Parts between commas; commas in brackets and in quotation marks part nothing.
+std::vector<std::string> partsOf(const std::string& text);
 /// "key=a,b,c"; commas in brackets and in quotation marks part nothing. @param where  for messages
 Axis axisFrom(const std::string& text, const std::string& where);
 /// "key=value". @throws InputError if there is no '='
 Setting settingFrom(const std::string& text);
 
-/// A run: its label and settings.
+/// A run.
 struct StudyRun {
-  std::string label;
-  std::vector<Setting> set;
+  std::string scene;
+  std::string way, point, repeat;  ///< labels
+  std::vector<Setting> common;     ///< of all runs of its way
+  std::vector<Setting> set;        ///< what is its own
+  std::string label() const;
 };
-/// Every combination of the points, the last axis fastest. @throws InputError if they are more than 10 000
-std::vector<StudyRun> combinations(const std::vector<Axis>& axes);
+/// All runs of the plan: of each way every combination of the points, the last axis fastest, each repeated.
+/// @throws InputError if they are more than 10 000
+std::vector<StudyRun> runsOf(const StudyPlan& plan);
 
 /// JSON Schema and Markdown reference of files of studies.
 std::string studyReference();

@@ -56,7 +56,7 @@ void runStudy(const py::function& read, const std::vector<Points>& over, const f
               const py::object& measure, const std::string& error, std::optional<double> exact,
               std::optional<int> workers, bool replace, const py::function& write) {
   StudySettings settings;
-  settings.over = axesOf(over);
+  settings.ways = {{"", "", "", {}, axesOf(over)}};
   settings.folder = folder;
   settings.replace = replace;
   settings.exact = exact;
@@ -72,8 +72,10 @@ void runStudy(const py::function& read, const std::vector<Points>& over, const f
     settings.act = [&](const scene::Scene& scene) { return calls(py::function(act), py::cast(scene)); };
   if (!measure.is_none())
     settings.measure = [&](const fs::path& of) { return calls(py::function(measure), py::str(of.string())); };
-  settings.error = error;
-  if (error.empty() && settings.needsSeries()) settings.error = program::ownError;
+  if (!error.empty())
+    settings.error = {error};
+  else if (settings.needsSeries())
+    settings.error = {program::ownError};
   if (exact && settings.error.empty())
     throw InputError("there is an exact value of no figure", "exact", "name the figure as error");
   const io::InterruptionGuard guard;

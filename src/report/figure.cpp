@@ -79,19 +79,19 @@ void addRoundTicks(Scale& scale, double fraction) {
   }
 }
 
-Scale scaleOf(const Axis& axis, const std::vector<Curve>& curves, std::vector<double> Curve::*values, double fraction) {
+/// @param values  of all curves
+Scale scaleOf(const Axis& axis, const std::vector<double>& values, double fraction) {
   Scale scale{std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(),
               axis.logarithmic,
               {},
               axis.label};
-  for (const Curve& curve : curves)
-    for (const double value : curve.*values) {
-      if (!std::isfinite(value) || (axis.logarithmic && value <= 0.0)) continue;
-      const double place = axis.logarithmic ? std::log10(value) : value;
-      scale.low = std::min(scale.low, place);
-      scale.high = std::max(scale.high, place);
-    }
+  for (const double value : values) {
+    if (!std::isfinite(value) || (axis.logarithmic && value <= 0.0)) continue;
+    const double place = axis.logarithmic ? std::log10(value) : value;
+    scale.low = std::min(scale.low, place);
+    scale.high = std::max(scale.high, place);
+  }
   if (scale.low > scale.high) scale.low = 0.0, scale.high = 1.0;
   if (scale.high - scale.low <= 1e-12 * std::max(std::abs(scale.low), std::abs(scale.high)) ||
       scale.high == scale.low) {
@@ -182,6 +182,11 @@ std::string gridOf(const Scale& x, const Scale& y, double top) {
   return svg + textAt(13.0, middle, "middle", y.label, format(" transform=\"rotate(-90 13 %.1f)\"", middle));
 }
 
+/// Class of a curve's line.
+std::string colourOf(const Curve& curve, std::size_t number) {
+  return (curve.dashed ? "dashed c" : "c") + std::to_string(number % colours);
+}
+
 /// A disc; a ring where the colours have come round, so that no two curves look alike up to twice as many.
 std::string markAt(double x, double y, std::size_t number) {
   const bool ring = number / colours % 2 == 1;
@@ -189,8 +194,22 @@ std::string markAt(double x, double y, std::size_t number) {
                 static_cast<int>(number % colours), x, y, ring ? "3" : "3.5");
 }
 
+/// A range that begins at or below the end of the axis, as one from 0 does on a logarithmic one, begins there.
+std::string rangesOf(const Curve& curve, const Scale& x, const Scale& y, double top, std::size_t number) {
+  std::string svg;
+  for (std::size_t k = 0; k < std::min(curve.ranges.size(), curve.x.size()); ++k) {
+    const double across = x(curve.x[k]), high = y(curve.ranges[k][1]);
+    const double low = std::isfinite(y(curve.ranges[k][0])) ? y(curve.ranges[k][0]) : 0.0;
+    if (!std::isfinite(across) || !std::isfinite(high)) continue;
+    svg +=
+        format("<path class=\"c%d\" d=\"M%.1f %.1fV%.1f\"/>\n", static_cast<int>(number % colours),
+               left + across * (width - left - right), top + (1.0 - low) * plotHeight, top + (1.0 - high) * plotHeight);
+  }
+  return svg;
+}
+
 std::string pathOf(const Curve& curve, const Drawn& drawn, std::size_t number) {
-  const std::string colour = "c" + std::to_string(number % colours);
+  const std::string colour = colourOf(curve, number);
   std::string d, svg;
   for (const auto& part : drawn.parts())
     for (std::size_t k = 0; k < part.size(); ++k) d += format("%s%.1f %.1f", k == 0 ? "M" : "L", part[k].x, part[k].y);
@@ -215,7 +234,7 @@ std::string legendOf(const Figure& figure, double& y) {
       x = left;
       y += row;
     }
-    const std::string colour = "c" + std::to_string(k % colours);
+    const std::string colour = colourOf(curves[k], k);
     if (curves[k].line) svg += format("<path class=\"%s\" d=\"M%.1f %.1fh18\"/>\n", colour.c_str(), x, y - 4.0);
     if (curves[k].marks) svg += markAt(x + 9.0, y - 4.0, k);
     svg += textAt(x + 23.0, y, "start", curves[k].name);
@@ -256,11 +275,16 @@ std::string drawn(const Figure& figure, const std::string& style) {
     body += barsOf(figure, height);
     return framed(figure, height, body);
   }
-  const Scale x = scaleOf(figure.x, figure.curves, &Curve::x, 0.05),
-              y = scaleOf(figure.y, figure.curves, &Curve::y, 1.0);
+  std::vector<double> across, up;
+  for (const Curve& curve : figure.curves) {
+    across.insert(across.end(), curve.x.begin(), curve.x.end());
+    up.insert(up.end(), curve.y.begin(), curve.y.end());
+    for (const auto& range : curve.ranges) up.insert(up.end(), range.begin(), range.end());
+  }
+  const Scale x = scaleOf(figure.x, across, 0.05), y = scaleOf(figure.y, up, 1.0);
   body += gridOf(x, y, top);
   for (std::size_t k = 0; k < figure.curves.size(); ++k)
-    body += pathOf(figure.curves[k], Drawn(figure.curves[k], x, y, top), k);
+    body += rangesOf(figure.curves[k], x, y, top, k) + pathOf(figure.curves[k], Drawn(figure.curves[k], x, y, top), k);
   height += plotHeight + 38.0;
   body += legendOf(figure, height);
   return framed(figure, height, body);
@@ -301,6 +325,7 @@ std::string figureStyle() {
   return ".figure{max-width:100%;height:auto;font:12px system-ui,sans-serif;fill:#222}\n"
          ".figure path{fill:none;stroke-width:1.6;stroke-linejoin:round;stroke-linecap:round}\n"
          ".figure .ring{fill:none;stroke-width:1.6}\n"
+         ".figure .dashed{stroke-dasharray:5 4}\n"
          ".figure .grid{stroke:#8883;stroke-width:1}\n"
          ".figure .axis{stroke:#888;stroke-width:1}\n"
          ".figure .title{font-weight:600;font-size:13px}\n" +

@@ -25,7 +25,10 @@ namespace dovetail::report {
 namespace {
 
 Json rowOf(const StudyCase& one, const std::string& outcome, const std::string& message, const Json& figures) {
-  Json row{{"label", one.label}, {"outcome", outcome}, {"message", message}};
+  Json row{{"label", one.label}};
+  if (!one.way.empty()) row["way"] = one.way;
+  if (!one.point.empty()) row["point"] = one.point;
+  row.update({{"outcome", outcome}, {"message", message}});
   row.update(figures);
   row["settings"] = objectOf(one.settings);
   return row;
@@ -54,6 +57,90 @@ double numberIn(const Json& row, const std::string& key) {
 }
 
 bool finished(const Json& row) { return row["outcome"] == "finished"; }
+
+bool hasError(const Json& row, const std::string& error) {
+  return finished(row) && std::isfinite(numberIn(row, error));
+}
+
+std::string pointOf(const Json& row) { return row.value("point", row["label"].get<std::string>()); }
+
+bool isOf(const Json& row, const StudyPoint& point) {
+  return row.value("way", "") == point.way && pointOf(row) == point.point;
+}
+
+bool hasWays(const std::vector<StudyPoint>& points) {
+  return std::ranges::any_of(points, [](const StudyPoint& point) { return !point.way.empty(); });
+}
+
+bool hasRepeats(const std::vector<StudyPoint>& points) {
+  return std::ranges::any_of(points, [](const StudyPoint& point) { return point.runs > 1; });
+}
+
+Curve curveOf(const std::vector<StudyPoint>& points, const std::string& name,
+              const std::function<bool(const StudyPoint&)>& belongs) {
+  std::vector<StudyPoint> some;
+  std::ranges::copy_if(points, std::back_inserter(some), belongs);
+  std::ranges::stable_sort(some, {}, &StudyPoint::seconds);
+  Curve curve{name, {}, {}, true, true};
+  for (const StudyPoint& point : some) {
+    curve.x.push_back(point.seconds);
+    curve.y.push_back(point.error);
+    if (hasRepeats(points)) curve.ranges.push_back({point.lowest, point.highest});
+  }
+  return curve;
+}
+
+/// Error against run time: the points of each way, or all and those on the front joined.
+Figure frontFigure(const std::vector<StudyPoint>& points, const std::string& error, const std::string& name,
+                   const Json& whole) {
+  Figure figure{name, error + " against run time", {"run time (s)", true}, {"|" + error + "|", true}, {}, {}};
+  std::vector<std::string> ways;
+  for (const StudyPoint& point : points)
+    if (std::ranges::find(ways, point.way) == ways.end()) ways.push_back(point.way);
+  if (hasWays(points)) {
+    for (const std::string& way : ways)
+      figure.curves.push_back(curveOf(points, way, [&](const StudyPoint& point) { return point.way == way; }));
+  } else {
+    figure.curves = {curveOf(points, "runs", [](const StudyPoint&) { return true; }),
+                     curveOf(points, "front", [](const StudyPoint& point) { return point.onFront; })};
+    figure.curves.front().line = false;
+    figure.curves.back().ranges.clear();
+  }
+  if (points.empty() || !whole.contains("scatter")) return figure;
+  const auto [least, most] = std::ranges::minmax(points, {}, &StudyPoint::seconds);
+  const double scatter = whole["scatter"];
+  figure.curves.push_back({"scatter of the reference", {least.seconds, most.seconds}, {scatter, scatter}});
+  figure.curves.back().dashed = true;
+  return figure;
+}
+
+Table tableOf(const std::vector<StudyPoint>& points, const Study::Front& front) {
+  Table table{{"point", "runs", "seconds", front.error, "lowest", "highest", front.mark}, {}};
+  for (const StudyPoint& point : points) {
+    const std::string name =
+        point.way.empty() || point.way == point.point ? point.point : point.way + ": " + point.point;
+    std::vector<std::string> cells{name, std::to_string(point.runs)};
+    for (const double value : {point.seconds, point.error, point.lowest, point.highest})
+      cells.push_back(format("%.4g", value));
+    cells.emplace_back(point.onFront ? "yes" : "");
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+Json jsonOf(const std::vector<StudyPoint>& points) {
+  Json json = Json::array();
+  for (const StudyPoint& point : points)
+    json.push_back({{"way", point.way},
+                    {"point", point.point},
+                    {"runs", point.runs},
+                    {"wall_seconds", point.seconds},
+                    {"error", point.error},
+                    {"lowest", point.lowest},
+                    {"highest", point.highest},
+                    {"on_front", point.onFront}});
+  return json;
+}
 
 /// The runs of a study as they come in.
 class Conduct {
@@ -150,6 +237,7 @@ private:
   void take(std::size_t number, Json row) {
     rows_[number] = std::move(row);
     progress_.update(static_cast<double>(++done_), study_.cases[number].label);
+    if (study_.relate) whole_ = study_.relate(rows_);
     std::vector<Json> rows;
     for (const Json& one : rows_)
       if (!one.is_null()) rows.push_back(one);
@@ -159,15 +247,16 @@ private:
   }
 
   static void mark(std::vector<Json>& rows, const Study::Front& front) {
-    const auto on = onFront(
-        rows, finished, [](const Json& r) { return numberIn(r, "wall_seconds"); },
-        [&](const Json& r) { return std::abs(numberIn(r, front.error)); });
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-      const Json settings = rows[k]["settings"];
-      rows[k].erase("settings");  // stay last
-      rows[k][front.mark] = static_cast<bool>(on[k]);
-      rows[k]["settings"] = settings;
+    const std::vector<StudyPoint> points = pointsOf(rows, front.error);
+    for (Json& row : rows) {
+      const Json settings = row["settings"];
+      row.erase("settings");  // stay last
+      row[front.mark] = hasError(row, front.error) && isOnFront(points, row);
+      row["settings"] = settings;
     }
+  }
+  static bool isOnFront(const std::vector<StudyPoint>& points, const Json& row) {
+    return std::ranges::any_of(points, [&](const StudyPoint& point) { return point.onFront && isOf(row, point); });
   }
 
   void print(const Json& row) const {
@@ -204,14 +293,21 @@ private:
     io::writeFileAtomically(file(".csv"), csvOf(rows, provenance));
     Json json{{"provenance", objectOf(provenance)}, {"study", study_.name}};  // first: it marks the file as ours
     json.update(study_.about);
-    json["runs"] = rows;
-    io::writeFileAtomically(file(".json"), json.dump(2) + "\n");
+    if (whole_.is_object()) json.update(whole_);
     Page page{study_.name == "study" ? "Study" : "Study " + study_.name, {{"Runs", {table(rows)}}}};
     if (!study_.fronts.empty()) {
-      page.sections.push_back({"Error against run time", {frontFigure(rows, study_.fronts.front(), study_.name)}});
+      const Study::Front& front = study_.fronts.front();
+      const std::vector<StudyPoint> points = pointsOf(rows, front.error);
+      if (hasWays(points) || hasRepeats(points)) {
+        json["points"] = jsonOf(points);
+        page.sections.push_back({"Points", {tableOf(points, front)}});
+      }
+      page.sections.push_back({"Error against run time", {frontFigure(points, front.error, study_.name, whole_)}});
       io::writeFileAtomically(file(".svg"),
                               "<!-- " + provenance.front().second + " -->\n" + svgFileOf(*figuresOf(page).front()));
     }
+    json["runs"] = rows;
+    io::writeFileAtomically(file(".json"), json.dump(2) + "\n");
     io::writeFileAtomically(file(".md"), "<!-- " + provenance.front().second + " -->\n\n" + markdownOf(page, ""));
   }
 
@@ -220,30 +316,31 @@ private:
   std::vector<Json> rows_;
   Progress progress_;
   std::map<pid_t, Work> working_;
+  Json whole_;
   std::size_t done_ = 0;
 };
 
 }  // namespace
 
-Figure frontFigure(const std::vector<Json>& rows, const Study::Front& front, const std::string& name) {
-  Figure figure{name, front.error + " against run time", {"run time (s)", true}, {"|" + front.error + "|", true}, {},
-                {}};
-  Curve all{"runs", {}, {}, false, true}, best{"front", {}, {}, true, true};
-  std::vector<std::pair<double, double>> on;
+std::vector<StudyPoint> pointsOf(const std::vector<Json>& rows, const std::string& error) {
+  std::vector<StudyPoint> points;
   for (const Json& row : rows) {
-    if (!finished(row)) continue;
-    const double seconds = numberIn(row, "wall_seconds"), error = std::abs(numberIn(row, front.error));
-    all.x.push_back(seconds);
-    all.y.push_back(error);
-    if (row.value(front.mark, false)) on.emplace_back(seconds, error);
+    if (!hasError(row, error)) continue;
+    const auto known = std::ranges::find_if(points, [&](const StudyPoint& point) { return isOf(row, point); });
+    StudyPoint& point =
+        known != points.end() ? *known : points.emplace_back(StudyPoint{row.value("way", ""), pointOf(row)});
+    const double value = std::abs(numberIn(row, error));
+    point.lowest = point.runs == 0 ? value : std::min(point.lowest, value);
+    point.highest = std::max(point.highest, value);
+    ++point.runs;
+    point.seconds += (numberIn(row, "wall_seconds") - point.seconds) / point.runs;
+    point.error += (value - point.error) / point.runs;
   }
-  std::sort(on.begin(), on.end());
-  for (const auto& [seconds, error] : on) {
-    best.x.push_back(seconds);
-    best.y.push_back(error);
-  }
-  figure.curves = {std::move(all), std::move(best)};
-  return figure;
+  const auto on = onFront(
+      points, [](const StudyPoint&) { return true; }, [](const StudyPoint& point) { return point.seconds; },
+      [](const StudyPoint& point) { return point.error; });
+  for (std::size_t k = 0; k < points.size(); ++k) points[k].onFront = on[k];
+  return points;
 }
 
 std::vector<std::string> filesOf(const Study& study) {

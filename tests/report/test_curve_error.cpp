@@ -52,6 +52,27 @@ TEST(CurveError, FollowsCurvesThatTurnBackAndLeavesOutWhatIsBeyond) {
   EXPECT_EQ(distanceFrom(line, curve, Norm::mean).covered, 0.5);
 }
 
+TEST(CurveError, RelativeIsTheMeanOverThatOfTheReference) {
+  const Curve reference{"reference", {0, 1, 3, 4}, {1, 2, -1, 0}};
+  Curve scaled = reference, none = reference;
+  for (double& y : scaled.y) y *= 1.25;
+  for (double& y : none.y) y = 0.0;
+  EXPECT_NEAR(distanceFrom(reference, scaled, Norm::relative).value, 0.25, 1e-15);
+  EXPECT_NEAR(distanceFrom(reference, none, Norm::relative).value, 1.0, 1e-15);
+  EXPECT_NEAR(distanceFrom(reference, scaled, Norm::mean).value, 0.25 * distanceFrom(reference, none, Norm::mean).value,
+              1e-15);
+  EXPECT_THROW((void)distanceFrom(none, reference, Norm::relative), InputError);
+}
+
+TEST(CurveError, MeanOfCurvesLiesBetweenThemWhereAllAre) {
+  const Curve first{"a", {0, 1, 2, 3, 4}, {0, 1, 2, 3, 4}}, second{"b", {0.5, 4.5}, {1.5, 5.5}};
+  const Curve mean = meanOf({first, second});
+  EXPECT_EQ(mean.x, (std::vector<double>{1, 2, 3, 4}));
+  for (std::size_t k = 0; k < mean.x.size(); ++k) EXPECT_NEAR(mean.y[k], mean.x[k] + 0.5, 1e-15);
+  EXPECT_THROW((void)meanOf({first, Curve{"c", {10, 11}, {0, 0}}}), InputError);
+  EXPECT_THROW((void)meanOf({}), InputError);
+}
+
 TEST(CurveError, RefusesWhatIsNoReference) {
   const Curve run = onLine({0.0, 1.0}, {0, 0});
   const double nan = std::numeric_limits<double>::quiet_NaN();

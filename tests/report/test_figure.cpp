@@ -58,6 +58,19 @@ TEST(Svg, HasAxesLegendAndOneLinePerCurve) {
   EXPECT_NE(svgFileOf(figure).find("prefers-color-scheme"), std::string::npos);
 }
 
+TEST(Svg, RangesReachBeyondTheirPointsAndWidenTheAxis) {
+  Figure figure{"f", "", {"x"}, {"y", true}, {{"a", {1, 2}, {10, 10}, true, true}}, {}};
+  EXPECT_EQ(svgOf(figure).find("10³"), std::string::npos);
+  figure.curves.front().ranges = {{{5, 900}}, {{0, 20}}};  // the second from below the axis
+  figure.curves.push_back({"limit", {1, 2}, {10, 10}, true, false, true});
+  const std::string svg = svgOf(figure);
+  EXPECT_NE(svg.find("10³"), std::string::npos);
+  EXPECT_EQ(count(svg, "<path class=\"c0\""), 4u);  // two ranges, the curve and its mark in the legend
+  EXPECT_NE(svg.find("M422.0 220.0V"), std::string::npos);
+  EXPECT_EQ(count(svg, "\"dashed c1\""), 2u);  // the line and its mark in the legend
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
 TEST(Svg, LeavesOutWhatCannotBeDrawn) {
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
   const std::vector<Figure> figures{

@@ -64,6 +64,65 @@ TEST(Study, WritesTheSameTableWhateverTheProcesses) {
       << tables[0];
 }
 
+TEST(Study, RepeatsAreOnePointAndWaysAreCurves) {
+  const ScratchFolder folder;
+  Study study;
+  study.program = "test";
+  study.name = "ways";
+  study.folder = folder.path();
+  study.fronts = {{"error", "on_front"}};
+  study.quiet = true;
+  // Way a: errors 1, 3 and 2, 2 at 1 and 4 s; way b: 4 in 2 s, and one that fails; a third is beaten.
+  const auto add = [&](const char* way, const char* point, double seconds, double error) {
+    study.cases.push_back({std::string(way) + point + std::to_string(study.cases.size()),
+                           {},
+                           [=]() -> Json {
+                             if (error == 0.0) throw NumericalError("NaN", "", "");
+                             return {{"wall_seconds", seconds}, {"error", error}};
+                           },
+                           way,
+                           point});
+  };
+  add("a", "fine", 3.0, -1.0);
+  add("a", "fine", 5.0, 1.0);
+  add("a", "coarse", 1.0, 1.0);
+  add("a", "coarse", 1.0, -3.0);
+  add("b", "b", 2.0, 4.0);
+  add("b", "b", 2.0, 0.0);
+  study.relate = [](std::vector<Json>& rows) -> Json {
+    for (Json& row : rows)
+      if (!row.is_null()) row["rows"] = rows.size();
+    return {{"scatter", 0.5}};
+  };
+  std::ostringstream log, error;
+  EXPECT_TRUE(runStudy(study, log, error));
+  const Json json = Json::parse(readText(folder / "ways.json"));
+  EXPECT_EQ(json["scatter"], 0.5);
+  ASSERT_EQ(json["points"].size(), 3u);
+  const auto expect = [&](std::size_t k, const char* point, int runs, double seconds, double mean, double low,
+                          double high, bool front) {
+    const Json& row = json["points"][k];
+    EXPECT_EQ(row["point"], point);
+    EXPECT_EQ(row["runs"], runs);
+    EXPECT_EQ(row["wall_seconds"], seconds);
+    EXPECT_EQ(row["error"], mean);
+    EXPECT_EQ(row["lowest"], low);
+    EXPECT_EQ(row["highest"], high);
+    EXPECT_EQ(row["on_front"], front) << point;
+  };
+  expect(0, "fine", 2, 4.0, 1.0, 1.0, 1.0, true);
+  expect(1, "coarse", 2, 1.0, 2.0, 1.0, 3.0, true);
+  expect(2, "b", 1, 2.0, 4.0, 4.0, 4.0, false);
+  for (const Json& run : json["runs"]) EXPECT_EQ(run["rows"], 6u);
+  EXPECT_EQ(json["runs"][3]["on_front"], true);
+  EXPECT_EQ(json["runs"][5]["on_front"], false);
+  EXPECT_NE(readText(folder / "ways.md").find("| a: coarse | 2 | 1 | 2 | 1 | 3 | yes |"), std::string::npos);
+  EXPECT_NE(readText(folder / "ways.md").find("| b | 1 | 2 | 4 | 4 | 4 |  |"), std::string::npos);
+  const std::string svg = readText(folder / "ways.svg");
+  for (const char* const name : {">a<", ">b<", ">scatter of the reference<"})
+    EXPECT_NE(svg.find(name), std::string::npos) << name;
+}
+
 TEST(Study, RefusesAFolderThatHoldsSomebodyElsesTable) {
   const ScratchFolder folder;
   io::test::writeText(folder / "five.csv", "mine");

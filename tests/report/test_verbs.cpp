@@ -226,6 +226,144 @@ TEST(StudyVerb, RunsWhatAFilePlans) {
   refused("leave out one");
 }
 
+/// Two ways to bounce, each with repeats from other heights, beside the finest of the first.
+struct Ways : Bounce {
+  std::string plan = (folder / "plan.json").string(), more;
+  void write(const std::string& against, const std::string& error = "particles_kinetic_J, momentum_z_Ns") const {
+    std::string soft = bouncing;
+    soft.replace(soft.find("1e4"), 3, "2e4");
+    writeText(folder / "soft.json", soft);
+    writeText(plan, R"({"ways": [
+      {"name": "hard", "scene": "bounce.json", "over": [{"key": "share", "values": "0.01, 0.1"}]},
+      {"name": "soft", "scene": "soft.json"}],
+      "set": [{"key": "output.checkpoints", "value": "0.1 ms"}],
+      "repeat": {"key": "particles.0.spheres.0.at", "values": "[0, 0, 0.0101], [0, 0, 0.01015]"}, "error": ")" +
+                        error + "\", \"against\": {" + against + "}" + more + "}");
+  }
+  Json runs() const { return Json::parse(readText(folder / "out/study.json"))["runs"]; }
+};
+
+TEST(StudyVerb, HoldsWaysToRunsOfTheStudyRepeatByRepeat) {
+  Ways ways;
+  ways.write(R"("way": "hard", "point": "share=0.01", "norm": "relative")");
+  const Outcome outcome = runProgram({"study", ways.plan, "--out", ways.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json study = Json::parse(readText(ways.folder / "out/study.json")), runs = study["runs"];
+  ASSERT_EQ(runs.size(), 6u);
+  const auto curveIn = [&](std::size_t run, const std::string& column) {
+    const io::TimeSeries series =
+        io::readCsv(ways.folder / ("out/" + runs[run]["settings"]["folder"].get<std::string>()) / "series.csv");
+    const auto x = series.column("time_s"), y = series.column(column);
+    return Curve{"", {x.begin(), x.end()}, {y.begin(), y.end()}};
+  };
+  const auto distance = [&](const Curve& from, std::size_t run, const std::string& column) {
+    return distanceFrom(from, curveIn(run, column), Norm::relative).value;
+  };
+  double scatter = 0.0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(runs[k]["point"], k < 2 ? "share=0.01" : k < 4 ? "share=0.1" : "soft");
+    if (k < 2) {  // the reference
+      EXPECT_FALSE(runs[k].contains("error"));
+      continue;
+    }
+    double sum = 0.0;
+    for (const char* const column : {"particles_kinetic_J", "momentum_z_Ns"}) {
+      const double part = distance(curveIn(k % 2, column), k, column);
+      EXPECT_EQ(runs[k][std::string("error_") + column], part);
+      sum += 0.5 * part * part;
+    }
+    EXPECT_NEAR(runs[k]["error"].get<double>(), std::sqrt(sum), 1e-15);
+  }
+  for (const char* const column : {"particles_kinetic_J", "momentum_z_Ns"})
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double part = distance(meanOf({curveIn(0, column), curveIn(1, column)}), k, column);
+      scatter += 0.25 * part * part;
+    }
+  EXPECT_NEAR(study["scatter"].get<double>(), std::sqrt(scatter), 1e-15);
+  EXPECT_GT(scatter, 0.0);
+  ASSERT_EQ(study["points"].size(), 2u);
+  EXPECT_EQ(study["points"][1]["way"], "soft");
+  EXPECT_EQ(study["points"][1]["runs"], 2);
+  for (const char* const file : {"curves_particles_kinetic_J.svg", "curves_momentum_z_Ns.svg"})
+    EXPECT_NE(readText(ways.folder / "out" / file).find("soft"), std::string::npos);
+}
+
+TEST(StudyVerb, GoesOnWhereAnEarlierOneEnded) {
+  Ways ways;
+  ways.write(R"("way": "hard", "point": "share=0.01", "norm": "relative")");
+  ASSERT_EQ(runProgram({"study", ways.plan, "--out", ways.out}).code, 0);
+  const Json whole = Json::parse(readText(ways.folder / "out/study.json"));
+  const std::string series = readText(ways.folder / "out/004/series.csv");
+  Json less = whole;  // the fourth has no row, and begins at its checkpoint; the sixth has nothing
+  less["runs"].erase(5);
+  less["runs"].erase(3);
+  writeText(ways.folder / "out/study.json", less.dump(2));
+  std::filesystem::remove(ways.folder / "out/004/summary.json");
+  std::filesystem::remove_all(ways.folder / "out/006");
+  const auto written = std::filesystem::last_write_time(ways.folder / "out/003/series.csv");
+  const Outcome outcome = runProgram({"study", ways.plan, "--continue", "--out", ways.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(std::filesystem::last_write_time(ways.folder / "out/003/series.csv"), written);
+  EXPECT_EQ(readText(ways.folder / "out/004/series.csv"), series);
+  const Json runs = ways.runs();
+  ASSERT_EQ(runs.size(), 6u);
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(runs[k]["outcome"], "finished") << runs[k]["message"];
+    EXPECT_EQ(runs[k]["label"], whole["runs"][k]["label"]);
+    EXPECT_EQ(runs[k]["particles_kinetic_J"], whole["runs"][k]["particles_kinetic_J"]);
+    EXPECT_EQ(runs[k].value("error", 0.0), whole["runs"][k].value("error", 0.0)) << k;
+  }
+  for (const std::size_t k : {0u, 1u, 2u, 4u}) EXPECT_EQ(runs[k]["wall_seconds"], whole["runs"][k]["wall_seconds"]);
+  // Another scene is run anew.
+  const Outcome other = runProgram({"study", ways.plan, "--continue", "--set", "speed=2", "--out", ways.out});
+  ASSERT_EQ(other.code, 0) << other.err;
+  EXPECT_NE(ways.runs()[2]["particles_kinetic_J"], whole["runs"][2]["particles_kinetic_J"]);
+  EXPECT_EQ(runProgram({"study", ways.plan, "--continue", "--replace", "--out", ways.out}).code, 2);
+}
+
+TEST(StudyVerb, RefusesWaysThatCannotBeCompared) {
+  Ways ways;
+  const auto refused = [&](const std::string& part, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"study", ways.plan, "--out", ways.out};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome bad = runProgram(words);
+    EXPECT_EQ(bad.code, 2);
+    EXPECT_NE(bad.err.find(part), std::string::npos) << bad.err;
+    EXPECT_FALSE(std::filesystem::exists(ways.out));
+  };
+  const std::string good = R"("way": "hard", "point": "share=0.01", "norm": "relative")";
+  ways.write(R"("way": "hard", "norm": "relative")");
+  refused("take one of share=0.01; share=0.1");
+  ways.write(R"("way": "hard", "point": "share=1", "norm": "relative")");
+  refused("no point \"share=1\"");
+  ways.write(R"("way": "grains", "norm": "relative")");
+  refused("no way \"grains\"");
+  ways.write(R"("norm": "relative")");
+  refused("no single one");
+  ways.write(R"("way": "hard", "point": "share=0.01")");
+  refused("cannot be added up");
+  ways.write(good, "particles_kinetic_J, speed_J");
+  refused("--error speed_J");
+  ways.write(good);
+  refused("axes of its own", {"--over", "share=0.1"});
+  ways.more = R"(, "scene": "bounce.json")";
+  ways.write(good);
+  refused("beside a scene");
+}
+
+TEST(StudyVerb, TheShippedStudyConvergesInEveryWay) {
+  const ScratchFolder folder;
+  const Outcome outcome = runProgram(
+      {"study", std::string(SCENES) + "/studies/static-cantilever.json", "--out", (folder / "out").string()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json points = Json::parse(readText(folder / "out/study.json"))["points"];
+  ASSERT_EQ(points.size(), 9u);
+  for (std::size_t k = 0; k < 9; ++k)
+    if (k % 3 > 0) {
+      EXPECT_LT(points[k]["error"].get<double>(), points[k - 1]["error"].get<double>()) << points[k]["point"];
+    }
+}
+
 TEST(ReportVerb, WritesAPageOnARunWithItsNumbers) {
   const Bounce bounce;
   ASSERT_EQ(runProgram({"run", bounce.file, "--out", bounce.out}).code, 0);

@@ -76,7 +76,7 @@ public:
     Json& entry = add(key, {{"type", "string"}, {"minLength", 1}}, needed);
     if (!value.empty()) entry["default"] = value;
   }
-  void file(Key key, std::string&) override { add(key, {{"type", "string"}, {"minLength", 1}}, true); }
+  void file(Key key, std::string&, bool needed) override { add(key, {{"type", "string"}, {"minLength", 1}}, needed); }
   void fileList(Key key, std::vector<std::string>&) override {
     add(key, {{"type", "array"}, {"items", {{"type", "string"}, {"minLength", 1}}}}, false);
   }

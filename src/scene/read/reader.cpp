@@ -107,8 +107,8 @@ public:
   void text(Key key, std::string& value, bool needed) override {
     if (const Node* node = take(key, needed)) value = textOf(*node, key);
   }
-  void file(Key key, std::string& value) override {
-    if (const Node* node = take(key, true)) value = fileOf(*node, key);
+  void file(Key key, std::string& value, bool needed) override {
+    if (const Node* node = take(key, needed)) value = fileOf(*node, key);
   }
   void fileList(Key key, std::vector<std::string>& values) override {
     const Node* node = take(key, false);

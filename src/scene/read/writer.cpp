@@ -51,7 +51,9 @@ public:
   void text(Key key, std::string& value, bool) override {
     if (!value.empty()) json[key.name] = value;
   }
-  void file(Key key, std::string& value) override { json[key.name] = value; }
+  void file(Key key, std::string& value, bool needed) override {
+    if (needed || !value.empty()) json[key.name] = value;
+  }
   void fileList(Key key, std::vector<std::string>& values) override {
     if (!values.empty()) json[key.name] = values;
   }

@@ -127,7 +127,7 @@ public:
   void text(Key, std::string&, bool) override {}
   void fileList(Key, std::vector<std::string>&) override {}
   void nameOrNumber(Key, std::string&) override {}
-  void file(Key, std::string&) override {}
+  void file(Key, std::string&, bool) override {}
   void word(Key, std::string&, Words) override {}
   void wordList(Key, std::vector<std::string>&, Words, bool) override {}
   void where(std::string&) override {}

@@ -1,6 +1,7 @@
 // Figures of curves over a common axis as SVG.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,8 @@ struct Curve {
   std::string name;
   std::vector<double> x, y;  ///< of one length; the line breaks where one is not finite
   bool line = true, marks = false;
+  bool dashed = false;
+  std::vector<std::array<double, 2>> ranges{};  ///< lowest and highest y at each point, drawn as a bar; empty: none
 };
 
 struct Axis {

@@ -17,12 +17,14 @@ struct StudyCase {
   /// Runs it and returns its figures, numbers and texts by name; "wall_seconds" is its run time. "finished": false says
   /// that it broke down, "stable": false that it cannot be trusted, and "failure" why. @throws InputError if refused
   std::function<Json()> run;
+  std::string way = {};    ///< a curve of the figure, of several; empty: there are no others
+  std::string point = {};  ///< cases of the same way and point repeat each other, as with other seeds; empty: the label
 };
 
 struct Study {
   std::string program;  ///< prefix of messages on interruptions
 
-  /// Marks what no other finished run beats in both the magnitude of a figure and the run time.
+  /// Marks what no other point beats in both the magnitude of a figure and the run time, means of its finished runs.
   struct Front {
     std::string error;  ///< the figure
     std::string mark;   ///< column for the mark
@@ -35,22 +37,35 @@ struct Study {
   Json about = Json::object();     ///< goes into `<name>.json`
   int workers = 0;                 ///< processes at once; 0: one run after the other in this process
   bool quiet = false;              ///< no lines, no progress
+  /// Adds figures that a run has only beside others, whenever one has ended; empty: there are none. Rows stand in the
+  /// order of the cases, null as long as there is none. Returns figures of the study as a whole, which go into
+  /// `<name>.json`; "scatter", of the reference of the first front, is drawn as a line.
+  std::function<Json(std::vector<Json>& rows)> relate = {};
   /// For some milliseconds, while processes are at work; empty: sleeps.
   std::function<void()> wait = {};
 };
+
+/// Runs that repeat each other.
+struct StudyPoint {
+  std::string way, point;
+  int runs = 0;          ///< that finished and have the figure
+  double seconds = 0.0;  ///< mean run time
+  double error = 0.0;    ///< mean magnitude of the figure of a front
+  double lowest = 0.0, highest = 0.0;
+  bool onFront = false;
+};
+/// The points of these rows, in the order of their first ones, and which of them are on the front.
+std::vector<StudyPoint> pointsOf(const std::vector<Json>& rows, const std::string& error);
 
 /// Names of the files that a study writes.
 std::vector<std::string> filesOf(const Study& study);
 
 /// Runs all cases, prints a line for each, and writes `<name>.csv`, .json, .md and, with a front, .svg into the folder,
-/// anew with every run, rows in the order of the cases. A column "outcome" tells finished, not stable, broke down or
+/// anew with every run, rows in the order of the cases; where several ways or repeats are compared, also their points,
+/// with the means and ranges of the first front's figure. A column "outcome" tells finished, not stable, broke down or
 /// refused, "message" why. Signals that ask to end (io/interruption.hpp) are handed on to the processes.
 /// @return whether all were run; if not, `error` got a line that says so, and runs that were under way have no row
 /// @throws InputError as io::prepareOutputFolder
 bool runStudy(const Study& study, std::ostream& log, std::ostream& error);
-
-/// Error against run time of the rows that finished, those on the front joined.
-struct Figure;
-Figure frontFigure(const std::vector<Json>& rows, const Study::Front& front, const std::string& name);
 
 }  // namespace dovetail::report

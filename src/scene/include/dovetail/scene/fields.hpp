@@ -56,7 +56,7 @@ public:
   virtual void flag(Key key, bool& value) = 0;
   virtual void flag(Key key, std::optional<bool>& value) = 0;
   virtual void text(Key key, std::string& value, bool needed) = 0;
-  virtual void file(Key key, std::string& value) = 0;
+  virtual void file(Key key, std::string& value, bool needed = true) = 0;
   virtual void fileList(Key key, std::vector<std::string>& values) = 0;
   /// A name, or the number of an item of a list, counted from 0.
   virtual void nameOrNumber(Key key, std::string& value) = 0;
