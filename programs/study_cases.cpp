@@ -71,7 +71,8 @@ double secondsOfStages(const fs::path& folder) {
   return sum;
 }
 
-report::Json runCase(const scene::Scene& scene, const fs::path& folder, const StudySettings& settings, bool resumes) {
+report::Json runCase(const scene::Scene& scene, const fs::path& folder, const StudySettings& settings, bool compared,
+                     bool resumes) {
   if (settings.threadsEach)
     setThreads(*settings.threadsEach);
   else if (settings.workers > 0)
@@ -84,7 +85,10 @@ report::Json runCase(const scene::Scene& scene, const fs::path& folder, const St
   if (!settings.act && fs::exists(folder / "series.csv")) addSeries(folder / "series.csv", figures);
   figures.update(own);
   if (settings.measure && figures["finished"] == true) figures.update(settings.measure(folder));
-  requireFigures(folder, settings, figures);
+  if (compared)
+    requireFigures(folder, settings, figures);
+  else
+    figures["prepares"] = true;
   return figures;
 }
 
@@ -169,6 +173,7 @@ report::Study studyOf(const StudySettings& settings) {
   if (!settings.error.empty()) study.fronts = {{settings.hasError() ? "error" : settings.error.front(), "on_front"}};
   study.shown = shownFigures(settings);
   const std::vector<StudyRun> runs = runsOf(settings);
+  const auto folderNamed = [&](std::size_t k) { return fs::absolute(folderOf(settings, k)).string(); };
   if (settings.hasError())
     study.relate = [=, &settings](std::vector<report::Json>& rows) { return addErrors(settings, runs, rows); };
   const std::vector<report::Json> rows = earlierRows(settings);
@@ -177,23 +182,24 @@ report::Study studyOf(const StudySettings& settings) {
   for (const StudyRun& run : runs) {
     std::vector<std::string> all;
     for (const auto* const some : {&settings.set, &run.common, &run.set})
-      for (const Setting& one : *some) all.push_back(one.key + "=" + one.value);
+      for (const Setting& one : *some) all.push_back(one.key + "=" + withFolders(one.value, run, runs, folderNamed));
     io::KeyValues values;
     for (const Setting& one : run.set) values.emplace_back(one.key, one.value);
     const fs::path folder = folderOf(settings, study.cases.size());
     if (!settings.act) values.emplace_back("folder", folder.filename().string());
     std::optional<InputError> refusal;
     const std::optional<scene::Scene> scene = sceneOf(settings, run.scene, all, refusal);
-    if (scene && settings.needsSeries() && std::ranges::find(checked, run.way) == checked.end())
+    if (scene && settings.needsSeries() && !run.prepares && run.after.empty() &&
+        std::ranges::find(checked, run.way) == checked.end())
       requireColumns(*scene, settings);
     if (scene) checked.push_back(run.way);
     if (!first) first = refusal;
     const Earlier earlier = scene && settings.goOn ? earlierOf(folder, run, *scene, rows) : Earlier{};
     const auto work = [=, &settings] {
       if (refusal) throw InputError(*refusal);
-      return earlier.figures ? *earlier.figures : runCase(*scene, folder, settings, earlier.resumes);
+      return earlier.figures ? *earlier.figures : runCase(*scene, folder, settings, !run.prepares, earlier.resumes);
     };
-    study.cases.push_back({run.label(), values, work, run.way, pointOf(settings, run)});
+    study.cases.push_back({run.label(), values, work, run.way, pointOf(settings, run), run.after});
   }
   if (checked.empty()) throw InputError(*first);
   return study;

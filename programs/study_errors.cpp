@@ -103,7 +103,7 @@ void drawCurves(const StudySettings& settings, const std::vector<StudyRun>& runs
   const std::vector<std::size_t> repeats = references(settings, runs);
   add(repeats.empty() ? fs::path(settings.against->file) : seriesOf(settings, repeats.front()), "reference", true);
   for (std::size_t k = 0; k < runs.size(); ++k)
-    if (!isReference(settings, runs[k]) && runs[k].repeat == runs.front().repeat)
+    if (!isReference(settings, runs[k]) && !runs[k].prepares && runs[k].repeat == runs.front().repeat)
       add(seriesOf(settings, k), runs[k].label(), false);
   io::writeFileAtomically(settings.folder / curveFile(settings, y),
                           "<!-- " + io::provenance().front().second + " -->\n" + report::svgFileOf(figure));
@@ -114,7 +114,7 @@ void drawCurves(const StudySettings& settings, const std::vector<StudyRun>& runs
 report::Json addErrors(const StudySettings& settings, const std::vector<StudyRun>& runs, std::vector<Json>& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     Json& row = rows[k];
-    if (!finished(row) || row.contains("error")) continue;
+    if (!finished(row) || row.contains("error") || runs[k].prepares) continue;
     try {
       if (settings.exact)
         row["error"] = row[settings.error.front()].get<double>() - *settings.exact;

@@ -31,6 +31,10 @@ void describe(Fields& f, Way& v) {
   f.file({"scene", "file of the scene"}, v.scene);
   f.list({"set", "values of the scene's keys, the same for all its runs"}, v.set);
   f.list({"over", "axes, as of a study; a single run if not given"}, v.over);
+  f.flag({"prepares",
+          "whether later ways begin with what it writes, such as a packing: {NAME} in their values is the "
+          "folder of its run, with the same repeat; it is not compared"},
+         v.prepares);
 }
 void describe(Fields& f, Against& v) {
   static constexpr const char* norms[] = {"mean", "largest", "end", "relative"};
@@ -92,6 +96,8 @@ void requireAxes(const std::vector<Axis>& axes) {
 void requireWays(const StudyPlan& plan) {
   for (const Way& way : plan.ways) {
     requireAxes(way.over);
+    if (way.prepares && !way.over.empty())
+      throw InputError("a way that prepares has axes", way.where, "make it a way for each point, or a repeat");
     if (std::ranges::count(plan.ways, way.name, &Way::name) > 1)
       throw InputError("two ways are named \"" + way.name + "\"", way.where, "give each a name of its own");
   }
@@ -174,6 +180,31 @@ Setting settingFrom(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+namespace {
+
+std::string markOf(const StudyRun& run) { return "{" + run.way + "}"; }
+
+/// The numbers of those before that the settings name.
+void findPreparations(StudyRun& run, const std::vector<StudyRun>& before) {
+  for (std::size_t k = 0; k < before.size(); ++k)
+    for (const auto* const some : {&run.common, &run.set})
+      if (before[k].prepares && before[k].repeat == run.repeat && std::ranges::any_of(*some, [&](const Setting& one) {
+            return one.value.find(markOf(before[k])) != std::string::npos;
+          }))
+        if (std::ranges::find(run.after, k) == run.after.end()) run.after.push_back(k);
+}
+
+}  // namespace
+
+std::string withFolders(std::string text, const StudyRun& run, const std::vector<StudyRun>& runs,
+                        const std::function<std::string(std::size_t)>& folder) {
+  for (const std::size_t k : run.after) {
+    const std::string mark = markOf(runs[k]);
+    for (std::size_t at; (at = text.find(mark)) != std::string::npos;) text.replace(at, mark.size(), folder(k));
+  }
+  return text;
+}
+
 std::string StudyRun::label() const {
   std::string text = point;
   if (!repeat.empty()) text += (text.empty() ? "" : ", ") + repeat;
@@ -184,7 +215,7 @@ std::string StudyRun::label() const {
 std::vector<StudyRun> runsOf(const StudyPlan& plan) {
   std::vector<StudyRun> all;
   for (const Way& way : plan.ways) {
-    std::vector<StudyRun> some{{way.scene, way.name, "", "", way.set, {}}};
+    std::vector<StudyRun> some{{way.scene, way.name, "", "", way.set, {}, {}}};
     const auto multiply = [&](const Axis& axis, std::string StudyRun::*label) {
       std::vector<StudyRun> more;
       for (const StudyRun& run : some)
@@ -200,6 +231,10 @@ std::vector<StudyRun> runsOf(const StudyPlan& plan) {
     };
     for (const Axis& axis : way.over) multiply(axis, &StudyRun::point);
     if (plan.repeat) multiply(*plan.repeat, &StudyRun::repeat);
+    for (StudyRun& run : some) {
+      run.prepares = way.prepares;
+      findPreparations(run, all);
+    }
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -1,6 +1,7 @@
 // What a study runs, and what it compares: from the command line, or from a file of its own.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,7 @@ struct Way {
   std::string scene;
   std::vector<Setting> set;
   std::vector<Axis> over;
+  bool prepares = false;  ///< what others begin with: it is not compared
 };
 
 struct StudyPlan {
@@ -58,7 +60,8 @@ inline constexpr const char* normWords = "mean|largest|end|relative";
 bool isStudy(const std::string& file);
 
 /// @throws InputError as scene::readScene; if an axis has neither or both of "key" and "points", if there are ways
-/// beside a scene of its own, or two of one name, or if the reference is no single point of the study
+/// beside a scene of its own, or two of one name, or if the reference is no single point of the study, or a way begins
+/// with another that does not prepare
 StudyPlan readStudy(const std::string& file);
 
 /// Parts between commas; commas in brackets and in quotation marks part nothing.
@@ -74,8 +77,13 @@ struct StudyRun {
   std::string way, point, repeat;  ///< labels
   std::vector<Setting> common;     ///< of all runs of its way
   std::vector<Setting> set;        ///< what is its own
+  std::vector<std::size_t> after;  ///< numbers of the runs that it begins with
+  bool prepares = false;
   std::string label() const;
 };
+/// The text with {NAME} of ways that prepare replaced by folder(number of their run).
+std::string withFolders(std::string text, const StudyRun& run, const std::vector<StudyRun>& runs,
+                        const std::function<std::string(std::size_t)>& folder);
 /// All runs of the plan: of each way every combination of the points, the last axis fastest, each repeated.
 /// @throws InputError if they are more than 10 000
 std::vector<StudyRun> runsOf(const StudyPlan& plan);

@@ -162,6 +162,7 @@ private:
   bool oneByOne() {
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       progress_.update(static_cast<double>(k), study_.cases[k].label);
+      if (isRefused(k)) continue;
       Json row = attempt(study_.cases[k]);
       if (io::interruption() != 0) return false;
       take(k, std::move(row));
@@ -171,16 +172,32 @@ private:
 
   bool inProcesses() {
     bool told = false;
-    for (std::size_t next = 0; next < rows_.size() || !working_.empty();) {
+    while (done_ < rows_.size()) {
       const int signal = io::interruption();
       if (signal != 0 && !std::exchange(told, true))
         for (const auto& [process, work] : working_) ::kill(process, signal);
       if (signal != 0 && working_.empty()) return false;
-      while (signal == 0 && next < rows_.size() && working_.size() < static_cast<std::size_t>(study_.workers))
-        begin(next++);
+      for (std::size_t k = 0; k < rows_.size() && signal == 0; ++k)
+        if (working_.size() < static_cast<std::size_t>(study_.workers) && mayBegin(k) && !isRefused(k)) begin(k);
       if (!collect()) study_.wait ? study_.wait() : void(::usleep(5000));
     }
     return io::interruption() == 0;
+  }
+
+  /// Whether a case has not begun, and all is there that it begins with.
+  bool mayBegin(std::size_t number) const {
+    const auto isDone = [&](std::size_t k) { return !rows_[k].is_null(); };
+    return !isDone(number) && std::ranges::all_of(study_.cases[number].after, isDone) &&
+           std::ranges::none_of(working_, [&](const auto& one) { return one.second.number == number; });
+  }
+  /// Takes a row for a case that cannot begin.
+  bool isRefused(std::size_t number) {
+    for (const std::size_t k : study_.cases[number].after)
+      if (!finished(rows_[k])) {
+        const std::string why = "it begins with \"" + study_.cases[k].label + "\", which did not finish";
+        return take(number, rowOf(study_.cases[number], "refused", why, Json::object())), true;
+      }
+    return false;
   }
 
   struct Work {

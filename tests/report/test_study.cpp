@@ -123,6 +123,45 @@ TEST(Study, RepeatsAreOnePointAndWaysAreCurves) {
     EXPECT_NE(svg.find(name), std::string::npos) << name;
 }
 
+TEST(Study, CasesBeginWhenThoseBeforeHaveFinished) {
+  for (const int workers : {0, 1, 3}) {
+    const ScratchFolder folder;
+    Study study;
+    study.program = "test";
+    study.name = "after";
+    study.folder = folder.path();
+    study.workers = workers;
+    study.quiet = true;
+    const auto file = [&](int k) { return folder / ("of-" + std::to_string(k)); };
+    const auto add = [&](bool fails, std::vector<std::size_t> after) {
+      const int number = static_cast<int>(study.cases.size());
+      study.cases.push_back({"case " + std::to_string(number), {}, [=]() -> Json {
+                               for (const std::size_t k : after)
+                                 if (!std::filesystem::exists(file(static_cast<int>(k))))
+                                   throw InputError("early", "", "");
+                               std::this_thread::sleep_for(std::chrono::milliseconds(number == 0 ? 30 : 1));
+                               if (fails) throw NumericalError("NaN", "", "");
+                               io::test::writeText(file(number), "done");
+                               return {{"wall_seconds", 1.0}};
+                             }});
+      study.cases.back().after = std::move(after);
+    };
+    add(false, {});
+    add(false, {0});  // waits, while the third goes on
+    add(true, {});
+    add(false, {0, 2});
+    add(false, {1});
+    add(false, {3});
+    std::ostringstream log, error;
+    EXPECT_TRUE(runStudy(study, log, error));
+    const Json runs = Json::parse(readText(folder / "after.json"))["runs"];
+    const char* const outcomes[] = {"finished", "finished", "broke down", "refused", "finished", "refused"};
+    ASSERT_EQ(runs.size(), 6u);
+    for (std::size_t k = 0; k < 6; ++k) EXPECT_EQ(runs[k]["outcome"], outcomes[k]) << k << " " << runs[k]["message"];
+    EXPECT_NE(runs[3]["message"].get<std::string>().find("\"case 2\", which did not finish"), std::string::npos);
+  }
+}
+
 TEST(Study, RefusesAFolderThatHoldsSomebodyElsesTable) {
   const ScratchFolder folder;
   io::test::writeText(folder / "five.csv", "mine");

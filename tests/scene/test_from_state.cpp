@@ -122,6 +122,59 @@ TEST_F(StatesOfOthers, StayWhereSupportsHadThem) {
   EXPECT_NEAR(rows.column("held_uz_m").back(), 0.0, 1e-15);
 }
 
+/// Grains in a box under a lid that keeps a pressure, and rub against its sides.
+std::string underALid(const std::string& particles, const std::string& lid) {
+  return R"({"contact": {"law": "linear", "stiffness": 1e4, "friction": 0.4}, "gravity": [0, 0, -9.81],
+      "particles": [)" +
+         particles + R"(], "walls": [
+        {"name": "sides", "shape": "box", "box": [[0, 0, 0], [0.08, 0.08, 1]], "open": ["z+"]},
+        {"name": "lid", "shape": "plane", "point": [0, 0, 0.19], "normal": [0, 0, -1], )" +
+         lid + R"(}],
+      "steps": {"dt": 2e-5}, "stages": [{"do": "run", "time": 0.02}],
+      "output": {"series": 1e-3, "checkpoints": 1, "probes": [{"name": "lid", "of": "wall", "wall": "lid"},
+        {"name": "sides", "of": "wall", "wall": "sides"}]}})";
+}
+
+TEST_F(StatesOfOthers, WallsStartWhereTheyWere) {
+  const std::string servo = R"("servo": {"keeps": "pressure", "pressure": 20000, "area": 0.0064, "axis": [0, 0, -1]})",
+                    state = R"("state": {"file": ")" + file() + R"("}, )";
+  const auto run = [&](const std::string& text, const ScratchFolder& out) {
+    io::test::writeText(scenes / "scene.json", text);
+    return runProgram({"run", (scenes / "scene.json").string(), "--out", out.path().string(), "--replace"});
+  };
+  const std::string packing = R"({"from": "packing", "box": [[0, 0, 0], [0.08, 0.08, 0.19]], "density": 2500,
+      "radius": {"smallest": 0.008, "largest": 0.01}, "solid_fraction": 0.55})";
+  ASSERT_EQ(run(underALid(packing, servo), first).code, 0);
+  const std::string grains = R"({"from": "state", "file": ")" + file() + R"("})";
+  const auto held = run(underALid(grains, state + R"("velocity": [0, 0, 0])"), next);
+  ASSERT_EQ(held.code, 0) << held.err;
+  EXPECT_EQ(held.out.find("without the tangential springs"), std::string::npos) << held.out;
+  const io::TimeSeries before = io::readCsv(first / "series.csv"), after = io::readCsv(next / "series.csv");
+  EXPECT_LT(before.column("lid_uz_m").back(), -1e-3);  // it went down
+  EXPECT_GT(before.column("lid_z_N").back(), 1.0);
+  for (const char* const name : {"lid_z_N", "lid_x_N", "sides_x_N", "sides_z_N", "particles_contacts_J"})
+    EXPECT_NEAR(after.column(name)[0], before.column(name).back(), 1e-12 * std::abs(before.column(name).back()))
+        << name;
+  EXPECT_EQ(after.column("lid_uz_m")[0], 0.0);
+
+  const std::string whole = underALid(grains, state + R"("velocity": [0, 0, 0])");
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string text = whole;
+    for (std::size_t at; (at = text.find(from)) != std::string::npos;) text.replace(at, from.size(), to);
+    return text;
+  };
+  const auto refused = [&](const std::string& text, const std::string& part) {
+    const auto outcome = run(text, next);
+    EXPECT_EQ(outcome.code, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  };
+  refused(replaced(R"("lid")", R"("cap")"), "no wall \"cap\"");
+  refused(replaced(R"("shape": "plane", "point": [0, 0, 0.19], "normal": [0, 0, -1])",
+                   R"("shape": "sphere", "centre": [0, 0, 0.2], "radius": 1)"),
+          "another shape in the state");
+  refused(replaced("checkpoint.state", "nowhere.state"), "nowhere.state");
+}
+
 TEST_F(StatesOfOthers, TellWhatBeginsWithoutSprings) {
   ASSERT_EQ(runs({}, first).code, 0);
   const Parts right = after({});

@@ -83,6 +83,32 @@ TEST(Probes, FollowTheirGrainAndTellThatItLeft) {
   EXPECT_NEAR(values["b_z_m"], 3.0 * 2e-2, 1e-12);
 }
 
+TEST(Probes, MeanOverARegionOfASolidIsThatOfItsVolume) {
+  const Vec3 shift{1.0, 2.0, 3.0}, along{0.5, -1.0, 2.0};
+  for (const char* const cell : {"hex8", "tet10", "hex20"}) {
+    const Scene file = sceneOf(R"("solids": [{"name": "bar", "mesh": "box", "cell": ")" + std::string(cell) +
+                               R"(", "cells": [2, 1, 7], "box": [[0, 0, 0], [1, 1, 3]],
+         "material": {"law": "neo-Hookean", "youngs_modulus": 1e5, "poisson_ratio": 0.2, "density": 500}}],
+       "output": {"probes": [{"name": "slab", "of": "region", "solid": "bar", "box": [[-9, 0.5, 1.1], [0.5, 9, 1.9]]}]},)");
+    Built built = started(file);
+    // Stretched before the probe looks: what lies in the region is then another part.
+    fem::Nodes& nodes = built.run->solid(0).model->nodes;
+    for (std::size_t n = 0; n < nodes.X.size(); ++n) nodes.u[n] = 0.25 * nodes.X[n];
+    const Probes probes(built, file);
+    for (std::size_t n = 0; n < nodes.X.size(); ++n) {
+      const Vec3 x = nodes.X[n] + nodes.u[n];
+      nodes.v[n] = shift + Vec3{along.x * x.z, along.y * x.x, along.z * x.y};
+      nodes.u[n] = {};  // it follows its part
+    }
+    auto values = valuesOf(probes, built);
+    EXPECT_EQ(values.size(), 3u);
+    const Vec3 centre{0.25, 0.875, 1.5};
+    EXPECT_NEAR(values["slab_vx_m_per_s"], shift.x + along.x * centre.z, 1e-12) << cell;
+    EXPECT_NEAR(values["slab_vy_m_per_s"], shift.y + along.y * centre.x, 1e-12) << cell;
+    EXPECT_NEAR(values["slab_vz_m_per_s"], shift.z + along.z * centre.y, 1e-12) << cell;
+  }
+}
+
 TEST(Probes, OfWhatIsNotThereAreRefused) {
   const auto refusal = [](const std::string& probe) -> std::string {
     const Scene file = sceneOf(R"("output": {"probes": [)" + probe + "]},");
@@ -98,6 +124,12 @@ TEST(Probes, OfWhatIsNotThereAreRefused) {
   EXPECT_NE(refusal(R"({"name": "a", "of": "node", "solid": "b", "at": [0, 0, 0]})").find("no solid \"b\""),
             std::string::npos);
   EXPECT_NE(refusal(R"({"name": "a", "of": "wall", "wall": 3})").find("no wall 3"), std::string::npos);
+  const Scene solid =
+      sceneOf(R"("solids": [{"name": "bar", "mesh": "box", "cells": [1, 1, 1], "box": [[0, 0, 0], [1, 1, 1]],
+         "material": {"law": "neo-Hookean", "youngs_modulus": 1e5, "poisson_ratio": 0.2, "density": 500}}],
+       "output": {"probes": [{"name": "r", "of": "region", "solid": "bar", "box": [[2, 0, 0], [3, 1, 1]]}]},)");
+  Built built = started(solid);
+  EXPECT_THROW(Probes(built, solid), InputError);
   EXPECT_NE(refusal(R"({"name": "a b", "of": "region", "box": [[0, 0, 0], [1, 1, 1]]})").find("a b"),
             std::string::npos);
 }

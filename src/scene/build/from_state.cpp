@@ -132,6 +132,52 @@ void takeSolid(fem::Model& model, const Solid& solid, std::vector<std::string>& 
   notes.push_back("Solid \"" + solid.name + "\" is that of a run at " + formatNumber(checkpoint.time) + " s.");
 }
 
+namespace {
+
+std::size_t primitivesIn(const Wall& wall) {
+  if (const auto* const box = std::get_if<BoxWalls>(&wall.shape)) return 6 - box->open.size();
+  return std::holds_alternative<SurfaceFile>(wall.shape) ? 0 : 1;
+}
+
+}  // namespace
+
+std::vector<dem::PrimitiveWall> wallOfState(const Wall& wall, const dem::Model& grains) {
+  const std::string& file = wall.state->file;
+  if (wall.name.empty()) throw InputError("a wall of a state has no name", file, "give it the name that it has there");
+  if (primitivesIn(wall) == 0)
+    throw InputError("the place of a mesh is not read from states", file, "give it by \"shift\"");
+  const Checkpoint checkpoint = loadCheckpoint(file);
+  const Scene there = sceneOf(checkpoint, file);
+  const auto found = std::ranges::find(there.walls, wall.name, &Wall::name);
+  if (found == there.walls.end()) {
+    std::vector<std::string> names;
+    for (const Wall& one : there.walls)
+      if (!one.name.empty()) names.push_back(one.name);
+    throw InputError("the state has no wall \"" + wall.name + "\"", file,
+                     names.empty() ? "name the wall in the scene of that run" : adviceFor(wall.name, names));
+  }
+  if (found->shape.index() != wall.shape.index() || primitivesIn(*found) != primitivesIn(wall))
+    throw InputError("the wall \"" + wall.name + "\" has another shape in the state", file,
+                     "give it the shape that it has there");
+  std::size_t skipped = 0;
+  for (auto before = there.walls.begin(); before != found; ++before) skipped += primitivesIn(*before);
+  std::vector<dem::PrimitiveWall> primitives;
+  for (const dem::TermOfState& term : dem::partsOf(coupling::particlesOf(checkpoint.state), file, grains).terms) {
+    if (term.name != "walls" || primitives.size() == primitivesIn(wall)) continue;
+    if (skipped > 0) {
+      --skipped;
+      continue;
+    }
+    ByteReader reader(term.bytes);
+    dem::PrimitiveWallTerm saved{dem::PrimitiveWall{}};
+    saved.load(reader);
+    primitives.push_back(std::move(saved.wall));
+  }
+  if (primitives.size() != primitivesIn(wall))
+    throw InputError("the state has fewer walls than its scene", file, "read a file that this version has written");
+  return primitives;
+}
+
 void takeContacts(Built& built, const Scene& scene) {
   const auto* const from =
       scene.particles.empty() ? nullptr : std::get_if<GrainsOfState>(&scene.particles.front().from);

@@ -6,6 +6,7 @@
 
 #include "dovetail/geometry/triangle_mesh.hpp"
 #include "dovetail/io/names.hpp"
+#include "from_state.hpp"
 #include "keys/advice.hpp"
 #include "parts.hpp"
 #include "time_functions.hpp"
@@ -22,7 +23,18 @@ struct Target {
   const Scene& scene;
   std::vector<std::string>& notes;
   WallParts& parts;
+  std::vector<dem::PrimitiveWall> ofState;  ///< its primitives there; empty: they are where the shape says
 };
+
+/// Where the next primitive is.
+dem::PrimitiveWall placed(const Target& to, dem::PrimitiveWall made) {
+  if (to.ofState.empty()) return made;
+  const dem::PrimitiveWall& there = to.ofState[to.parts.arms.size()];
+  made.point = there.point;
+  made.axis = there.axis;
+  made.radius = there.radius;
+  return made;
+}
 
 void add(const Target& to, dem::PrimitiveWall made) {
   made.material = contactRow(to.scene, to.wall.contactMaterial);
@@ -31,10 +43,13 @@ void add(const Target& to, dem::PrimitiveWall made) {
   to.parts.axes.push_back(made.axis);
   dem::addWall(to.run.grains, std::move(made));
 }
-void add(const Target& to, const Plane& plane) {
-  to.parts.point = plane.point;
-  add(to, dem::makePlane(plane.point, plane.normal));
+/// One primitive, whose point is that of the wall.
+void addAlone(const Target& to, dem::PrimitiveWall made) {
+  made = placed(to, std::move(made));
+  to.parts.point = made.point;
+  add(to, std::move(made));
 }
+void add(const Target& to, const Plane& plane) { addAlone(to, dem::makePlane(plane.point, plane.normal)); }
 void add(const Target& to, const BoxWalls& box) {
   to.parts.centre = 0.5 * (box.box.lower + box.box.upper);
   for (const bool upper : {false, true})
@@ -43,16 +58,14 @@ void add(const Target& to, const BoxWalls& box) {
       if (std::find(box.open.begin(), box.open.end(), side) != box.open.end()) continue;
       Vec3 normal;
       normal[k] = upper ? -1.0 : 1.0;
-      add(to, dem::makePlane(upper ? box.box.upper : box.box.lower, normal));
+      add(to, placed(to, dem::makePlane(upper ? box.box.upper : box.box.lower, normal)));
     }
 }
 void add(const Target& to, const Cylinder& cylinder) {
-  to.parts.point = cylinder.point;
-  add(to, dem::makeCylinder(cylinder.point, cylinder.axis, cylinder.radius, cylinder.inside));
+  addAlone(to, dem::makeCylinder(cylinder.point, cylinder.axis, cylinder.radius, cylinder.inside));
 }
 void add(const Target& to, const SphereWall& sphere) {
-  to.parts.point = sphere.centre;
-  add(to, dem::makeSphere(sphere.centre, sphere.radius, sphere.inside));
+  addAlone(to, dem::makeSphere(sphere.centre, sphere.radius, sphere.inside));
 }
 /// Of the surface, whatever its triangulation.
 Vec3 centroidOf(const geometry::TriangleMesh& mesh) {
@@ -133,7 +146,8 @@ void addWalls(Built& built, const Scene& scene) {
     atPlace(wall.where, [&] {
       requireOwnName(scene, wall);
       WallParts parts{.firstPrimitive = primitives(), .firstMesh = meshes()};
-      const Target to{*built.run, wall, scene, built.notes, parts};
+      const Target to{*built.run,  wall,  scene,
+                      built.notes, parts, wall.state ? wallOfState(wall, grains) : std::vector<dem::PrimitiveWall>{}};
       std::visit([&](const auto& shape) { add(to, shape); }, wall.shape);
       parts.endPrimitive = primitives();
       parts.endMesh = meshes();

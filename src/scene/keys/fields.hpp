@@ -102,6 +102,7 @@ void describe(Fields& f, MeshTie& v);
 void describe(Fields& f, SolidPlane& v);
 void describe(Fields& f, SolidGradient& v);
 void describe(Fields& f, StateOfSolid& v);
+void describe(Fields& f, StateOfWall& v);
 void describe(Fields& f, Solid& v);
 void describe(Fields& f, SurfaceContact& v);
 void describe(Fields& f, Overlap& v);

@@ -194,12 +194,20 @@ void describe(Fields& f, Servo& v) {
   f.number({"damping", "fraction of the unbalanced force that acts against the motion; 0: the wall moves freely"},
            v.damping, {unit::none, 0.0, 1.0, false, true});
 }
+void describe(Fields& f, StateOfWall& v) {
+  f.file(
+      {"file",
+       "checkpoint with a wall of this name and shape: the wall starts where it is there, as a lid on a bed that has "
+       "settled; not of a mesh"},
+      v.file);
+}
 void describe(Fields& f, Wall& v) {
   static constexpr const char* shapes[] = {"plane", "box", "cylinder", "sphere", "mesh"};
   f.where(v.where);
   f.oneOf({"shape", "of the wall"}, v.shape, shapes);
   f.text({"name", "for probes and changes: letters, digits, '_', '-' and '.', with a letter first"}, v.name, false);
   contactMaterial(f, v.contactMaterial);
+  f.object({"state", "place of the wall, of another run"}, v.state);
   rigidPath(f, v);
   f.object(servoKey, v.servo);
   f.vector(beltKey, v.surfaceVelocity, unit::velocity);

@@ -39,7 +39,13 @@ void describe(Fields& f, PlaneProbe& v) {
   solid(f, v.solid);
   f.integer({"plane", "which item of the solid's \"planes\", counted from 0"}, v.plane, 0, 1000000);
 }
-void describe(Fields& f, RegionProbe& v) { f.box({"box", "two corners"}, v.box); }
+void describe(Fields& f, RegionProbe& v) {
+  f.box({"box", "two corners"}, v.box);
+  f.text({"solid",
+          "in place of the grains: name of a solid, whose mean velocity is that of its part in the region at the "
+          "start, by volume, or of its material points, by mass"},
+         v.solid, false);
+}
 void describe(Fields& f, Probe& v) {
   static constexpr const char* kinds[] = {"grain", "node",    "body",   "wall",  "solid",
                                           "drive", "support", "region", "cells", "plane"};
@@ -49,7 +55,8 @@ void describe(Fields& f, Probe& v) {
            "position and velocity of a grain, displacement of a node, centre of mass, velocity and extent of a solid, "
            "force and moment of the grains on a wall and its "
            "displacement, force and moment of the grains on a solid, force and moment of a drive on its grains or of a "
-           "support on its solid, number and mean velocity of the grains in a region, pressure, stress ratio, void "
+           "support on its solid, number and mean velocity of the grains in a region, or the latter of a solid, "
+           "pressure, stress ratio, void "
            "ratio, contacts per grain and fraction of sliding contacts of the cells of a solid, or force of a plane on "
            "its solid and how deep that is in it"},
           v.of, kinds);

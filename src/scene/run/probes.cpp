@@ -9,8 +9,10 @@
 #include "build/parts.hpp"
 #include "build/wall_motion.hpp"
 #include "cell_fields.hpp"
+#include "dovetail/arlequin/cells.hpp"
 #include "dovetail/dem/model/loads.hpp"
 #include "dovetail/dem/model/walls.hpp"
+#include "dovetail/fem/mesh/element_locator.hpp"
 #include "dovetail/io/names.hpp"
 #include "dovetail/mpm/point_solid.hpp"
 #include "dovetail/surface/surface_contact.hpp"
@@ -73,6 +75,61 @@ void appendRegion(const dem::Particles& particles, const geometry::Box& box, std
   }
   row.push_back(count);
   append(row, mass > 0.0 ? 1.0 / mass * momentum : Vec3{});
+}
+
+/// Of a mean over a part of a solid: nodes, or material points, and their weights.
+using Mean = std::vector<std::pair<std::size_t, double>>;
+
+bool holds(const geometry::Box& box, const Vec3& x) {
+  for (int k = 0; k < 3; ++k)
+    if (x[k] < box.lower[k] || x[k] > box.upper[k]) return false;
+  return true;
+}
+
+/// By volume, as the solid is now: points as fine as a sixteenth of the region stand for it.
+Mean meanOver(const geometry::Box& box, const fem::SolidMesh& mesh, const fem::Nodes& nodes) {
+  constexpr int fineness = 16;
+  std::vector<Vec3> position = nodes.X;
+  for (std::size_t n = 0; n < position.size(); ++n) position[n] += nodes.u[n];
+  Extent extent;
+  extent.add(position);
+  Vec3 lower, step;
+  for (int k = 0; k < 3; ++k) {
+    lower[k] = std::max(box.lower[k], extent.lower[k]);
+    step[k] = (std::min(box.upper[k], extent.upper[k]) - lower[k]) / fineness;
+    if (step[k] < 0.0) return {};
+  }
+  const fem::ElementLocator locator(mesh.groups, position);
+  std::vector<double> weight(position.size(), 0.0);
+  double points = 0.0;
+  for (int z = 0; z < fineness; ++z)
+    for (int y = 0; y < fineness; ++y)
+      for (int x = 0; x < fineness; ++x) {
+        const auto place = locator.find(lower + Vec3{(x + 0.5) * step.x, (y + 0.5) * step.y, (z + 0.5) * step.z});
+        if (!place) continue;
+        const std::span<const int> node = arlequin::cellOf(mesh, place->element).node;
+        for (std::size_t a = 0; a < place->shape.size(); ++a)
+          weight[static_cast<std::size_t>(node[a])] += place->shape[a];
+        points += 1.0;
+      }
+  Mean mean;
+  for (std::size_t n = 0; n < weight.size(); ++n)
+    if (weight[n] != 0.0) mean.emplace_back(n, weight[n] / points);
+  return mean;
+}
+
+/// By mass.
+Mean meanOver(const geometry::Box& box, const mpm::PointSolid& body, const fem::Nodes& nodes) {
+  const std::vector<Vec3> places = body.places(nodes);
+  Mean mean;
+  double mass = 0.0;
+  for (std::size_t p = 0; p < places.size(); ++p)
+    if (holds(box, places[p])) {
+      mean.emplace_back(p, body.masses()[p]);
+      mass += body.masses()[p];
+    }
+  for (auto& [number, weight] : mean) weight /= mass;
+  return mean;
 }
 
 }  // namespace
@@ -242,9 +299,27 @@ Probes::Values Probes::find(const Built& built, const Scene& scene, const std::s
 }
 
 template <>
-Probes::Values Probes::find(const Built&, const Scene&, const std::string& name, const RegionProbe& kind) {
-  names_.push_back(name + "_particles");
+Probes::Values Probes::find(const Built& built, const Scene&, const std::string& name, const RegionProbe& kind) {
+  if (kind.solid.empty()) names_.push_back(name + "_particles");
   nameVector(name + "_v", "m_per_s");
+  if (!kind.solid.empty()) {
+    const std::size_t solid = solidNamed(kind.solid, *built.run);
+    const fem::Model& model = *std::as_const(*built.run).solid(solid).model;
+    const auto* const body = materialPoints(model);
+    const Mean mean =
+        body ? meanOver(kind.box, *body, model.nodes) : meanOver(kind.box, built.meshes[solid], model.nodes);
+    if (mean.empty())
+      throw InputError("nothing of \"" + kind.solid + "\" is in the region at the start", "", "move the box onto it");
+    return [solid, mean](const Built& now, std::vector<double>& row) {
+      const fem::Model& is = *std::as_const(*now.run).solid(solid).model;
+      const auto* const points = materialPoints(is);
+      const std::vector<Vec3> ofPoints = points ? velocitiesOf(*points, is.nodes) : std::vector<Vec3>{};
+      const std::vector<Vec3>& v = points ? ofPoints : is.nodes.v;
+      Vec3 sum;
+      for (const auto& [number, weight] : mean) sum += weight * v[number];
+      append(row, sum);
+    };
+  }
   return [box = kind.box](const Built& now, std::vector<double>& row) {
     appendRegion(now.run->grains.particles, box, row);
   };

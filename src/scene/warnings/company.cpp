@@ -137,7 +137,7 @@ void lookAtStreams(const Built& built, const Scene& scene, Lines& lines) {
   for (std::size_t o = 0; o < scene.outlets.size(); ++o)
     lookAtRegion(built, scene, item("outlets", o), scene.outlets[o].region, lines);
   for (const Probe& probe : scene.output.probes)
-    if (const auto* const region = std::get_if<RegionProbe>(&probe.of))
+    if (const auto* const region = std::get_if<RegionProbe>(&probe.of); region && region->solid.empty())
       lookAtRegion(built, scene, "the probe " + quoted(probe.name), region->box, lines);
   const std::vector<Vec3>& x = built.run->grains.particles.x;
   for (std::size_t o = 0; o < scene.outlets.size(); ++o) {

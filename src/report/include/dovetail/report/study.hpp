@@ -15,10 +15,12 @@ struct StudyCase {
   std::string label;
   io::KeyValues settings;  ///< columns of their own
   /// Runs it and returns its figures, numbers and texts by name; "wall_seconds" is its run time. "finished": false says
-  /// that it broke down, "stable": false that it cannot be trusted, and "failure" why. @throws InputError if refused
+  /// that it broke down, "stable": false that it cannot be trusted, and "failure" why; "prepares": true keeps it out
+  /// of the fronts. @throws InputError if refused
   std::function<Json()> run;
   std::string way = {};    ///< a curve of the figure, of several; empty: there are no others
   std::string point = {};  ///< cases of the same way and point repeat each other, as with other seeds; empty: the label
+  std::vector<std::size_t> after = {};  ///< numbers of earlier cases that must have finished; refused if one has not
 };
 
 struct Study {

@@ -213,9 +213,13 @@ struct RigidPath {
 struct WallMotion : RigidPath {
   std::optional<Servo> servo;  ///< in place of a path
 };
+struct StateOfWall {
+  std::string file;
+};
 struct Wall : WallMotion {
   std::variant<Plane, BoxWalls, Cylinder, SphereWall, SurfaceFile> shape;
   std::string name;
+  std::optional<StateOfWall> state;  ///< where it is; not given: as its shape says
   std::string contactMaterial;
   Vec3 surfaceVelocity;  ///< m/s, over the wall, which it does not move
   bool present = true;   ///< at the start

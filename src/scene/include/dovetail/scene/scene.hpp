@@ -119,6 +119,7 @@ struct PlaneProbe {
 /// Number and mean velocity of the grains in a box.
 struct RegionProbe {
   geometry::Box box = requiredBox;  ///< m
+  std::string solid;                ///< whose part there at the start is followed; empty: the grains there at any time
 };
 /// Of the cells of grains of a solid, the mean or one.
 struct CellsProbe {
