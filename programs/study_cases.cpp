@@ -192,12 +192,16 @@ report::Study studyOf(const StudySettings& settings) {
     if (scene && settings.needsSeries() && !run.prepares && run.after.empty() &&
         std::ranges::find(checked, run.way) == checked.end())
       requireColumns(*scene, settings);
-    if (scene) checked.push_back(run.way);
+    if (refusal && !run.after.empty()) refusal.reset();  // what it begins with is not there yet
+    if (!refusal) checked.push_back(run.way);
     if (!first) first = refusal;
     const Earlier earlier = scene && settings.goOn ? earlierOf(folder, run, *scene, rows) : Earlier{};
     const auto work = [=, &settings] {
-      if (refusal) throw InputError(*refusal);
-      return earlier.figures ? *earlier.figures : runCase(*scene, folder, settings, !run.prepares, earlier.resumes);
+      if (earlier.figures) return *earlier.figures;
+      std::optional<InputError> late = refusal;
+      const std::optional<scene::Scene> now = scene || late ? scene : sceneOf(settings, run.scene, all, late);
+      if (late) throw InputError(*late);
+      return runCase(*now, folder, settings, !run.prepares, earlier.resumes);
     };
     study.cases.push_back({run.label(), values, work, run.way, pointOf(settings, run), run.after});
   }

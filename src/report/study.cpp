@@ -59,7 +59,7 @@ double numberIn(const Json& row, const std::string& key) {
 bool finished(const Json& row) { return row["outcome"] == "finished"; }
 
 bool hasError(const Json& row, const std::string& error) {
-  return finished(row) && std::isfinite(numberIn(row, error));
+  return finished(row) && !row.value("prepares", false) && std::isfinite(numberIn(row, error));
 }
 
 std::string pointOf(const Json& row) { return row.value("point", row["label"].get<std::string>()); }

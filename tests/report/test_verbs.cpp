@@ -321,6 +321,47 @@ TEST(StudyVerb, GoesOnWhereAnEarlierOneEnded) {
   EXPECT_EQ(runProgram({"study", ways.plan, "--continue", "--replace", "--out", ways.out}).code, 2);
 }
 
+TEST(StudyVerb, WaysBeginWithWhatOthersPrepared) {
+  const Bounce bounce;
+  const std::string plan = (bounce.folder / "plan.json").string();
+  std::string later = bouncing;
+  const std::string spheres =
+      later.substr(later.find("[{\"from\""), later.find("],\n  \"walls\"") + 1 - later.find("[{\"from\""));
+  later.replace(later.find(spheres), spheres.size(), R"([{"from": "state", "file": "given by the study"}])");
+  writeText(bounce.folder / "later.json", later);
+  const auto write = [&](const std::string& more) {
+    writeText(plan, R"({"ways": [
+      {"name": "start", "scene": "bounce.json", "prepares": true, "set": [{"key": "output.checkpoints", "value": "1"}])" +
+                        more + R"(},
+      {"name": "rest", "scene": "later.json", "set": [{"key": "particles.0.file", "value": "{start}/checkpoint.state"}],
+       "over": [{"key": "share", "values": "0.05, 0.1"}]}],
+      "repeat": {"key": "speed", "values": "1, 2"}, "error": "particles_kinetic_J"})");
+  };
+  write("");
+  const Outcome outcome = runProgram({"study", plan, "--workers", "3", "--out", bounce.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json study = Json::parse(readText(bounce.folder / "out/study.json")), runs = study["runs"];
+  ASSERT_EQ(runs.size(), 6u);
+  ASSERT_EQ(study["points"].size(), 2u);  // the start is not compared
+  for (std::size_t k = 2; k < 6; ++k) {
+    EXPECT_EQ(runs[k]["outcome"], "finished") << runs[k]["message"];
+    const io::TimeSeries before = io::readCsv(bounce.folder / (k % 2 == 0 ? "out/001" : "out/002") / "series.csv"),
+                         after = io::readCsv(bounce.folder / ("out/00" + std::to_string(k + 1)) / "series.csv");
+    EXPECT_EQ(after.column("particles_kinetic_J")[0], before.column("particles_kinetic_J").back());
+  }
+  // The second start cannot be: what begins with it says so.
+  write(R"(, "over": [])");
+  const Outcome less =
+      runProgram({"study", plan, "--set", "stages.0.time=speed < 1.5 ? 1e-3 : -1", "--out", bounce.out + "2"});
+  EXPECT_EQ(less.code, 0) << less.err;
+  const Json some = Json::parse(readText(bounce.folder / "out2/study.json"))["runs"];
+  EXPECT_EQ(some[1]["outcome"], "refused");
+  write(R"(, "over": [{"key": "share", "values": "0.1, 0.2"}])");
+  const Outcome bad = runProgram({"study", plan, "--out", bounce.out + "3"});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_NE(bad.err.find("prepares has axes"), std::string::npos) << bad.err;
+}
+
 TEST(StudyVerb, RefusesWaysThatCannotBeCompared) {
   Ways ways;
   const auto refused = [&](const std::string& part, const std::vector<std::string>& more = {}) {
