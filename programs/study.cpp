@@ -75,7 +75,7 @@ void takeError(const Written& written, const Options& options, Settings& setting
   if (settings.error.empty()) settings.error = {ownError};
   for (const std::string& column : settings.error)  // refused before anything is run
     if (settings.against && settings.against->way.empty())
-      curveIn(settings.against->file, settings.against->along, column, true);
+      curveOfFile(settings.against->file, *settings.against, column);
 }
 
 }  // namespace

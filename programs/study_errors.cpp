@@ -1,11 +1,15 @@
 #include "study_errors.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <functional>
+#include <limits>
+#include <span>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/output_folder.hpp"
+#include "dovetail/io/plain_text.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/report/text.hpp"
 
@@ -20,7 +24,45 @@ bool hasColumn(const io::TimeSeries& series, const std::string& name) {
   return std::ranges::find(series.names(), name) != series.names().end();
 }
 
-fs::path seriesOf(const StudySettings& settings, std::size_t run) { return folderOf(settings, run) / "series.csv"; }
+void requireColumns(const io::TimeSeries& series, const fs::path& file, const std::vector<std::string>& names,
+                    const std::string& remedy) {
+  for (const std::string& name : names)
+    if (!hasColumn(series, name)) throw InputError("there is no column " + name, file.string(), remedy);
+}
+
+report::Curve curveOf(const fs::path& file, std::span<const double> x, std::span<const double> y) {
+  return {file.string(), {x.begin(), x.end()}, {y.begin(), y.end()}};
+}
+
+/// When a stage of a finished run began, and the next; s.
+std::array<double, 2> timesOf(const fs::path& folder, std::int64_t stage) {
+  const Json stages = Json::parse(io::readWhole(folder / "summary.json", "summary")).at("times").at("stages");
+  const auto count = static_cast<std::int64_t>(stages.size()), number = stage > 0 ? stage - 1 : count + stage;
+  if (number < 0 || number >= count)
+    throw InputError("the run has " + std::to_string(count) + " stages", folder.string(),
+                     "correct against.stage, which is " + std::to_string(stage));
+  const auto begins = [&](std::int64_t k) { return stages[static_cast<std::size_t>(k)].at("begins_s").get<double>(); };
+  return {begins(number), number + 1 < count ? begins(number + 1) : std::numeric_limits<double>::infinity()};
+}
+
+/// Of a run of the study.
+report::Curve curveOfRun(const StudySettings& settings, std::size_t run, const std::string& column) {
+  const Against& against = *settings.against;
+  const fs::path folder = folderOf(settings, run), file = folder / "series.csv";
+  const io::TimeSeries series = io::readCsv(file);
+  requireColumns(series, file, {against.along, column}, "correct its name");
+  const report::Curve whole = curveOf(file, series.column(against.along), series.column(column));
+  if (against.stage == 0) return whole;
+  const auto [begin, end] = timesOf(folder, against.stage);
+  const auto time = series.column("time_s");
+  report::Curve curve{whole.name, {}, {}};
+  for (std::size_t k = 0; k < whole.x.size(); ++k)
+    if (time[k] >= begin && time[k] <= end) {
+      curve.x.push_back(against.along == "time_s" ? whole.x[k] - begin : whole.x[k]);
+      curve.y.push_back(whole.y[k]);
+    }
+  return curve;
+}
 
 bool isReference(const StudySettings& settings, const StudyRun& run) {
   const auto& against = settings.against;
@@ -37,12 +79,22 @@ std::vector<std::size_t> references(const StudySettings& settings, const std::ve
 
 bool finished(const Json& row) { return !row.is_null() && row["outcome"] == "finished"; }
 
-/// The reference of a run; nothing as long as it is not there, and for itself.
-std::optional<fs::path> referenceOf(const StudySettings& settings, const std::vector<StudyRun>& runs,
-                                    const std::vector<Json>& rows, std::size_t run) {
-  if (settings.against->way.empty()) return settings.against->file;
+/// The curve that a run is held to, by column.
+using Reference = std::function<report::Curve(const std::string& column)>;
+
+Reference fileOf(const StudySettings& settings) {
+  return [&](const std::string& column) { return curveOfFile(settings.against->file, *settings.against, column); };
+}
+Reference runOf(const StudySettings& settings, std::size_t run) {
+  return [&settings, run](const std::string& column) { return curveOfRun(settings, run, column); };
+}
+
+/// Empty as long as the reference is not there, and for itself.
+Reference referenceOf(const StudySettings& settings, const std::vector<StudyRun>& runs, const std::vector<Json>& rows,
+                      std::size_t run) {
+  if (settings.against->way.empty()) return fileOf(settings);
   for (const std::size_t k : references(settings, runs))
-    if (k != run && runs[k].repeat == runs[run].repeat && finished(rows[k])) return seriesOf(settings, k);
+    if (k != run && runs[k].repeat == runs[run].repeat && finished(rows[k])) return runOf(settings, k);
   return {};
 }
 
@@ -52,14 +104,12 @@ double meanSquareRoot(const std::vector<double>& values) {
   return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-void addDistance(const StudySettings& settings, const fs::path& reference, std::size_t run, Json& row) {
-  const Against& against = *settings.against;
+void addDistance(const StudySettings& settings, const Reference& reference, std::size_t run, Json& row) {
   std::vector<double> errors;
   double covered = 1.0;
   for (const std::string& column : settings.error) {
     const report::CurveError found =
-        report::distanceFrom(curveIn(reference, against.along, column, true),
-                             curveIn(seriesOf(settings, run), against.along, column, false), against.norm);
+        report::distanceFrom(reference(column), curveOfRun(settings, run, column), settings.against->norm);
     errors.push_back(found.value);
     covered = std::min(covered, found.covered);
   }
@@ -75,8 +125,7 @@ Json scatterOf(const StudySettings& settings, const std::vector<StudyRun>& runs,
   std::vector<double> distances;
   for (const std::string& column : settings.error) {
     std::vector<report::Curve> curves;
-    for (const std::size_t k : repeats)
-      curves.push_back(curveIn(seriesOf(settings, k), settings.against->along, column, true));
+    for (const std::size_t k : repeats) curves.push_back(curveOfRun(settings, k, column));
     const report::Curve mean = report::meanOf(curves);
     for (const report::Curve& curve : curves)
       distances.push_back(report::distanceFrom(mean, curve, settings.against->norm).value);
@@ -92,19 +141,23 @@ std::string curveFile(const StudySettings& settings, const std::string& column) 
 constexpr std::size_t shownCurves = 11;
 
 /// The first of the repeats stands for all.
-void drawCurves(const StudySettings& settings, const std::vector<StudyRun>& runs, const std::string& y) {
+void drawCurves(const StudySettings& settings, const std::vector<StudyRun>& runs, const std::vector<Json>& rows,
+                const std::string& y) {
   const std::string& x = settings.against->along;
+  const auto isCompared = [](const Json& row) { return row.contains("error") && row["error"].is_number(); };
+  if (std::ranges::none_of(rows, isCompared)) return;
   report::Figure figure{"curves", y + " along " + x, {x, false}, {y, false}, {}, {}};
-  const auto add = [&](const fs::path& file, const std::string& name, bool isReference) {
-    if (!fs::exists(file) || figure.curves.size() > shownCurves) return;
-    figure.curves.push_back(curveIn(file, x, y, isReference));
+  const auto add = [&](report::Curve curve, const std::string& name) {
+    figure.curves.push_back(std::move(curve));
     figure.curves.back().name = name;
   };
   const std::vector<std::size_t> repeats = references(settings, runs);
-  add(repeats.empty() ? fs::path(settings.against->file) : seriesOf(settings, repeats.front()), "reference", true);
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (!isReference(settings, runs[k]) && !runs[k].prepares && runs[k].repeat == runs.front().repeat)
-      add(seriesOf(settings, k), runs[k].label(), false);
+  if (repeats.empty())
+    add(curveOfFile(settings.against->file, *settings.against, y), "reference");
+  else if (finished(rows[repeats.front()]))
+    add(curveOfRun(settings, repeats.front(), y), "reference");
+  for (std::size_t k = 0; k < runs.size() && figure.curves.size() <= shownCurves; ++k)
+    if (isCompared(rows[k]) && runs[k].repeat == runs.front().repeat) add(curveOfRun(settings, k, y), runs[k].label());
   io::writeFileAtomically(settings.folder / curveFile(settings, y),
                           "<!-- " + io::provenance().front().second + " -->\n" + report::svgFileOf(figure));
 }
@@ -118,8 +171,8 @@ report::Json addErrors(const StudySettings& settings, const std::vector<StudyRun
     try {
       if (settings.exact)
         row["error"] = row[settings.error.front()].get<double>() - *settings.exact;
-      else if (const auto reference = referenceOf(settings, runs, rows, k))
-        addDistance(settings, *reference, k, row);
+      else if (const Reference reference = referenceOf(settings, runs, rows, k))
+        addDistance(settings, reference, k, row);
     } catch (const InputError& error) {
       row["error"] = nullptr;
       row["message"] = error.what();
@@ -137,21 +190,17 @@ std::vector<std::string> curveFiles(const StudySettings& settings) {
 
 void drawCurves(const StudySettings& settings) {
   const std::vector<StudyRun> runs = runsOf(settings);
-  for (const std::string& column : settings.error) drawCurves(settings, runs, column);
+  const std::vector<Json> rows = Json::parse(io::readWhole(settings.folder / "study.json", "study")).at("runs");
+  for (const std::string& column : settings.error) drawCurves(settings, runs, rows, column);
 }
 
-report::Curve curveIn(const fs::path& file, const std::string& x, const std::string& y, bool isReference) {
+report::Curve curveOfFile(const fs::path& file, const Against& against, const std::string& column) {
   const io::TimeSeries series = io::readCsv(file);
-  const auto curve = [&](std::span<const double> a, std::span<const double> b) {
-    return report::Curve{file.string(), {a.begin(), a.end()}, {b.begin(), b.end()}};
-  };
-  if (isReference && series.names().size() == 2 && !(hasColumn(series, x) && hasColumn(series, y)))
-    return curve(series.column(std::size_t{0}), series.column(std::size_t{1}));
-  for (const std::string& name : {x, y})
-    if (!hasColumn(series, name))
-      throw InputError("there is no column " + name, file.string(),
-                       isReference ? "name its columns as in series.csv, or give two: x and y" : "correct its name");
-  return curve(series.column(x), series.column(y));
+  const bool named = hasColumn(series, against.along) && hasColumn(series, column);
+  if (series.names().size() == 2 && !named)
+    return curveOf(file, series.column(std::size_t{0}), series.column(std::size_t{1}));
+  requireColumns(series, file, {against.along, column}, "name its columns as in series.csv, or give two: x and y");
+  return curveOf(file, series.column(against.along), series.column(column));
 }
 
 }  // namespace dovetail::program

@@ -22,7 +22,7 @@ void drawCurves(const StudySettings& settings);
 /// Names of these files.
 std::vector<std::string> curveFiles(const StudySettings& settings);
 
-/// The columns of these names; of a reference with two columns of other names, these two. @throws InputError
-report::Curve curveIn(const std::filesystem::path& file, const std::string& x, const std::string& y, bool isReference);
+/// The column of a reference file, or its two columns of other names. @throws InputError
+report::Curve curveOfFile(const std::filesystem::path& file, const Against& against, const std::string& column);
 
 }  // namespace dovetail::program

@@ -43,6 +43,10 @@ void describe(Fields& f, Against& v) {
   f.text({"way", "in place of a file: name of the way whose run is the reference"}, v.way, false);
   f.text({"point", "label of that run, as in the tables; not needed where the way has one"}, v.point, false);
   f.text({"along", "column of x"}, v.along, false);
+  f.integer({"stage",
+             "only rows of this stage of the runs are compared, and their time counts from its start, as where "
+             "stages before relax; -1 is the last, -2 the one before; 0: all rows"},
+            v.stage, -1000, 1000);
   f.choice({"norm",
             "root of the mean square, largest magnitude, or value at the end of the difference; or the first "
             "over that of the reference"},

@@ -1,6 +1,7 @@
 // What a study runs, and what it compares: from the command line, or from a file of its own.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -32,6 +33,7 @@ struct Against {
   std::string way, point;        ///< runs of the study: each repeat is held to the one with the same value
   std::string along = "time_s";  ///< column of x
   report::Norm norm = report::Norm::mean;
+  std::int64_t stage = 0;  ///< whose rows of runs are compared, their time counted from its start; 0: all; −1: the last
 };
 
 /// A scene, and what is varied in it.

@@ -288,6 +288,34 @@ TEST(StudyVerb, HoldsWaysToRunsOfTheStudyRepeatByRepeat) {
     EXPECT_NE(readText(ways.folder / "out" / file).find("soft"), std::string::npos);
 }
 
+TEST(StudyVerb, ComparesAStageFromItsStart) {
+  // A grain that waits, in each way another time, and falls.
+  const ScratchFolder folder;
+  const std::string plan = (folder / "plan.json").string(), out = (folder / "out").string();
+  writeText(folder / "falls.json", R"({"title": "A grain falls", "let": {"wait": "0.2 ms"}, "gravity": [0, 0, 0],
+    "contact": {"law": "linear", "stiffness": 1e4},
+    "particles": [{"from": "list", "density": 2500, "spheres": [{"at": [0, 0, 1], "radius": "1 cm"}]}],
+    "steps": {"dt": "2 us"}, "output": {"series": "0.1 ms"},
+    "stages": [{"do": "run", "time": "wait"}, {"do": "run", "time": "1 ms", "changes": {"gravity": [0, 0, -9.81]}}]})");
+  const auto write = [&](const std::string& stage) {
+    writeText(plan, R"({"ways": [{"name": "soon", "scene": "falls.json"},
+      {"name": "late", "scene": "falls.json", "set": [{"key": "wait", "value": "0.6 ms"}]}],
+      "error": "momentum_z_Ns", "against": {"way": "soon", "norm": "relative")" +
+                        stage + "}}");
+    const Outcome outcome = runProgram({"study", plan, "--replace", "--out", out});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return Json::parse(readText(folder / "out/study.json"))["runs"][1];
+  };
+  EXPECT_GT(write("")["error"].get<double>(), 0.3);
+  for (const char* const stage : {R"(, "stage": 2)", R"(, "stage": -1)"}) {
+    const Json run = write(stage);
+    EXPECT_LT(run["error"].get<double>(), 1e-12) << stage;
+    EXPECT_NEAR(run["covered"].get<double>(), 1.0, 1e-9);
+  }
+  const Json beyond = write(R"(, "stage": 3)");
+  EXPECT_NE(beyond["message"].get<std::string>().find("2 stages"), std::string::npos) << beyond;
+}
+
 TEST(StudyVerb, GoesOnWhereAnEarlierOneEnded) {
   Ways ways;
   ways.write(R"("way": "hard", "point": "share=0.01", "norm": "relative")");

@@ -392,7 +392,7 @@ private:
         notes.warnings.push_back(text);
       }
     for (std::size_t k = 0; k < scene_.stages.size(); ++k) {
-      notes.stages.push_back({k + 1, nameOf(scene_.stages[k]), rounded(seconds_[k])});
+      notes.stages.push_back({k + 1, nameOf(scene_.stages[k]), rounded(seconds_[k]), progress_.begun[k].time});
       notes.lines.push_back(lineOf(k));
     }
     log_ << writeSummary(settings_.folder, provenance_, scene_, built_, notes, series_ ? &series_->table() : nullptr)

@@ -17,6 +17,7 @@ struct RunNotes {
     std::size_t number;  ///< from 1
     const char* what;
     double seconds;  ///< in all programs that worked on it
+    double begins;   ///< s, simulated
   };
   std::vector<Stage> stages;
   std::vector<std::string> lines, warnings;
