@@ -10,6 +10,7 @@
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
 #include "dovetail/io/interruption.hpp"
+#include "dovetail/io/plain_text.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/rve/equilibrium.hpp"
 #include "dovetail/rve/operators.hpp"
@@ -45,7 +46,9 @@ CellBank bankOf(const scene::Cells& cells, const std::filesystem::path& folder, 
     return bank;
   }
   const auto begun = std::chrono::steady_clock::now();
-  const std::string inputs = textOfCells(cells) + io::buildInfo().version + io::buildInfo().commit;
+  std::string inputs = textOfCells(cells) + io::buildInfo().version + io::buildInfo().commit;
+  if (const auto* const cut = std::get_if<scene::CutCells>(&cells.grains))
+    inputs += scene::hashOf(io::readWhole(cut->file, "packing"));
   CellBank bank{cells.name, {}, false, folder / (cells.name + "-" + scene::hashOf(inputs) + ".cells"), {}};
   bank.reused = std::filesystem::exists(bank.file);
   if (bank.reused) {

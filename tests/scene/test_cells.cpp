@@ -237,6 +237,72 @@ TEST(SceneCells, ComeFromFilesToo) {
 }
 
 /// One layer of bricks that cannot move along z.
+/// A packing that repeats, as a table with two periods along z; cells cut out of it are the cell that it was.
+TEST(SceneCells, AreCutOutOfPackings) {
+  const rve::Springs springs{.modulus = 6e8, .tangential = 0.8, .friction = 0.5};
+  rve::Rve packing = rve::randomCell({.shape = rve::Shape::sphere,
+                                      .count = 120,
+                                      .sizes = dem::UniformSizes{4e-3, 6e-3},
+                                      .solidFraction = 0.55,
+                                      .density = 2650},
+                                     springs);
+  rve::compress(packing,
+                {.pressure = {1e5, 1e5, 1e5}, .friction = 0.0, .tolerance = 1e-5, .rest = {.tolerance = 1e-6}});
+  const double x = packing.state.lattice.period[0].x, y = packing.state.lattice.period[1].y,
+               z = packing.state.lattice.period[2].z;
+  const io::test::ScratchFolder folder;
+  std::ostringstream table;
+  table.precision(17);
+  table << "x_m,y_m,z_m,radius_m\n";
+  const auto wrapped = [](double place, double period) { return place - period * std::floor(place / period); };
+  for (const int again : {0, 1})
+    for (std::size_t i = 0; i < packing.size(); ++i)
+      table << wrapped(packing.state.x[0][i], x) << ',' << wrapped(packing.state.x[1][i], y) << ','
+            << wrapped(packing.state.x[2][i], z) + again * z << ',' << packing.radius[i] << '\n';
+  io::test::writeText(folder / "packing.csv", table.str());
+  const auto cellsOf = [&](const std::string& box, const std::string& more) {
+    return sceneFromText(R"({"cells": [{"name": "sand", "grains": "cut", "file": "packing.csv", "box": )" + box +
+                             R"(, "contact": {"law": "linear", "modulus": 6e8, "friction": 0.5},
+           "prepare": [{"pressure": 1e5, "friction": 0}], "tolerance": 1e-5)" +
+                             more + "}]," + runs + "}",
+                         (folder / "s.json").string(), folder.path());
+  };
+  const auto number = [](double value) {
+    std::ostringstream text;
+    text.precision(17);
+    text << value;
+    return text.str();
+  };
+  const std::string whole = "[[0, 0, 0], [" + number(x) + ", " + number(y) + ", " + number(z) + "]]";
+  const std::vector<rve::Rve> cut =
+      makeCells(cellsOf(whole, R"(, "density": 2650, "number": 2, "step": [0, 0, )" + number(z) + "]").cells.front());
+  ASSERT_EQ(cut.size(), 2u);
+  for (const rve::Rve& cell : cut) {
+    ASSERT_EQ(cell.size(), packing.size());
+    EXPECT_NEAR(volume(cell), volume(packing), 1e-4 * volume(packing));
+    EXPECT_EQ(cell.density, 2650.0);
+    EXPECT_NEAR(-rve::nominalStress(cell).trace() / 3.0, 1e5, 1.0);
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double period = k == 0 ? x : k == 1 ? y : z, d = cell.state.x[k][i] - packing.state.x[k][i];
+        farthest = std::max(farthest, std::abs(d - period * std::round(d / period)));
+      }
+    EXPECT_LT(farthest, 2e-4);  // radii are 20 times as large
+  }
+  const auto refusal = [&](const std::string& box, const std::string& more) -> std::string {
+    try {
+      makeCells(cellsOf(box, more).cells.front());
+      return "";
+    } catch (const InputError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_NE(refusal(whole, "").find("no densities"), std::string::npos);
+  EXPECT_NE(refusal("[[1, 1, 1], [2, 2, 2]]", R"(, "density": 2650)").find("holds 0 of the 240 grains"),
+            std::string::npos);
+}
+
 TEST(PlaneStrain, IsALayerOfBricksInScenes) {
   const auto tip = [](const std::string& shape, const std::string& sides) {
     const Built built = loaded(

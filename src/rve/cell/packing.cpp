@@ -33,6 +33,16 @@ void sortByPlace(std::vector<Vec3>& centre, double strip) {
 
 }  // namespace
 
+Rve relaxedCell(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs) {
+  Springs loose = springs;
+  loose.friction = loose.rolling = 0.0;
+  Rve cell = makeRve(grains, lattice, loose);
+  relax(cell, {.tolerance = 1e-2, .steps = 2000});
+  setSprings(cell, springs);
+  cell.state.ledger = {};
+  return cell;
+}
+
 Rve randomCell(const CloudOptions& settings, const Springs& springs) {
   check(settings);
   const bool disc = settings.shape == Shape::disc;
@@ -50,13 +60,7 @@ Rve randomCell(const CloudOptions& settings, const Springs& springs) {
   sortByPlace(grains.centre, 4.0 * largest);
   const geometry::Lattice lattice{{Vec3{side, 0, 0}, Vec3{0, side, 0}, Vec3{0, 0, disc ? settings.thickness : side}},
                                   {true, true, !disc}};
-  Springs loose = springs;
-  loose.friction = loose.rolling = 0.0;
-  Rve cell = makeRve(grains, lattice, loose);
-  relax(cell, {.tolerance = 1e-2, .steps = 2000});
-  setSprings(cell, springs);
-  cell.state.ledger = {};
-  return cell;
+  return relaxedCell(grains, lattice, springs);
 }
 
 }  // namespace dovetail::rve

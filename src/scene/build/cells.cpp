@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "convert/grain_sources.hpp"
 #include "dealt_cells.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
@@ -42,12 +43,7 @@ rve::Springs springsOf(const CellContact& contact) {
 rve::CloudOptions cloudOf(const DiscCells& cells) { return {.shape = rve::Shape::disc, .thickness = cells.thickness}; }
 rve::CloudOptions cloudOf(const SphereCells&) { return {.shape = rve::Shape::sphere}; }
 
-rve::Rve pressed(const PressedCells& cells, rve::CloudOptions cloud, std::size_t number) {
-  cloud.count = static_cast<int>(cells.count);
-  cloud.sizes = sizesOf(cells.radius);
-  cloud.density = cells.density;
-  cloud.seed = static_cast<std::uint64_t>(cells.seed) + number;
-  rve::Rve cell = rve::randomCell(cloud, springsOf(cells.contact));
+rve::Rve pressed(rve::Rve cell, const CellPreparation& cells) {
   for (const CellPressing& to : cells.prepare)
     atPlace(to.where, [&] {
       rve::compress(cell, {.pressure = {to.pressure, to.pressure, to.pressure},
@@ -58,12 +54,70 @@ rve::Rve pressed(const PressedCells& cells, rve::CloudOptions cloud, std::size_t
   return cell;
 }
 
+rve::Rve randomCell(const RandomCells& cells, rve::CloudOptions cloud, std::size_t number) {
+  cloud.count = static_cast<int>(cells.count);
+  cloud.sizes = sizesOf(cells.radius);
+  cloud.density = cells.density;
+  cloud.seed = static_cast<std::uint64_t>(cells.seed) + number;
+  return rve::randomCell(cloud, springsOf(cells.contact));
+}
+
 template <class Kind>
 std::vector<rve::Rve> make(const Kind& cells) {
   requireMemory(static_cast<double>(cells.count * cells.number), "grains of cells", bytesOfGrain,
                 "take fewer cells, or fewer grains");
   std::vector<rve::Rve> made(static_cast<std::size_t>(cells.number));
-  parallelTasks(made.size(), [&](std::size_t k) { made[k] = pressed(cells, cloudOf(cells), k); });
+  parallelTasks(made.size(), [&](std::size_t k) { made[k] = pressed(randomCell(cells, cloudOf(cells), k), cells); });
+  return made;
+}
+
+/// The density that all have.
+double densityIn(const grain_io::GrainFile& grains, const std::string& file) {
+  const auto [least, most] = std::ranges::minmax(grains.density);
+  if (most - least > 1e-6 * most)
+    throw InputError("the grains have densities from " + formatNumber(least) + " to " + formatNumber(most) + " kg/m3",
+                     file, "cut cells out of a packing of one density");
+  return most;
+}
+
+/// Spheres with their centres in the box, which becomes the cell.
+rve::Grains grainsIn(const geometry::Box& box, const grain_io::GrainFile& grains, const std::string& file) {
+  rve::Grains inside{.shape = rve::Shape::sphere, .density = densityIn(grains, file)};
+  for (std::size_t i = 0; i < grains.position.size(); ++i) {
+    Vec3 x = grains.position[i];
+    bool within = true;
+    for (int k = 0; k < 3; ++k) {
+      if (grains.box && grains.periodic && (*grains.periodic)[static_cast<std::size_t>(k)]) {
+        const double length = grains.box->upper[k] - grains.box->lower[k];
+        x[k] -= length * std::floor((x[k] - box.lower[k]) / length);
+      }
+      within = within && x[k] >= box.lower[k] && x[k] < box.upper[k];
+    }
+    if (!within) continue;
+    inside.centre.push_back(x - box.lower);
+    inside.radius.push_back(grains.radius[i]);
+  }
+  constexpr std::size_t fewest = 4;
+  if (inside.centre.size() < fewest)
+    throw InputError("the box from " + placeText(box.lower) + " to " + placeText(box.upper) + " holds " +
+                         std::to_string(inside.centre.size()) + " of the " + std::to_string(grains.position.size()) +
+                         " grains",
+                     file, "move the box into the packing, or make it larger");
+  return inside;
+}
+
+std::vector<rve::Rve> make(const CutCells& cells) {
+  const grain_io::GrainFile grains = grainsFrom(cells.file, {.density = cells.density});
+  if (grains.density.empty())
+    throw InputError("the file has no densities of the grains", cells.file, "give a \"density\"");
+  std::vector<rve::Rve> made(static_cast<std::size_t>(cells.number));
+  parallelTasks(made.size(), [&](std::size_t k) {
+    const Vec3 shift = static_cast<double>(k) * cells.step;
+    const geometry::Box box{cells.box.lower + shift, cells.box.upper + shift};
+    const Vec3 edge = box.upper - box.lower;
+    const geometry::Lattice lattice{{Vec3{edge.x, 0, 0}, Vec3{0, edge.y, 0}, Vec3{0, 0, edge.z}}, {true, true, true}};
+    made[k] = pressed(rve::relaxedCell(grainsIn(box, grains, cells.file), lattice, springsOf(cells.contact)), cells);
+  });
   return made;
 }
 std::vector<rve::Rve> make(const CellFile& from) {

@@ -61,6 +61,7 @@ void describe(Fields& f, CellContact& v);
 void describe(Fields& f, CellPressing& v);
 void describe(Fields& f, DiscCells& v);
 void describe(Fields& f, SphereCells& v);
+void describe(Fields& f, CutCells& v);
 void describe(Fields& f, CellFile& v);
 void describe(Fields& f, Cells& v);
 void describe(Fields& f, BoxMesh& v);

@@ -18,8 +18,12 @@ struct CloudOptions {
   std::uint64_t seed = 1;      ///< same seed, same grains
 };
 
-/// Grains at random places in a square (discs) or cube that repeats, relaxed until what overlaps no longer pushes, or
-/// as far as that goes; numbered along the box, so that neighbours have near numbers. What `compress` starts from.
+/// A cell of these grains, pushed apart without friction until what overlaps no longer pushes, or as far as that goes;
+/// its ledger begins then. What `compress` starts from. @throws InputError as makeRve
+Rve relaxedCell(const Grains& grains, const geometry::Lattice& lattice, const Springs& springs);
+
+/// Grains at random places in a square (discs) or cube that repeats, in a relaxedCell; numbered along the box, so
+/// that neighbours have near numbers.
 /// @throws InputError if a setting is not valid, or as makeRve
 Rve randomCell(const CloudOptions& settings, const Springs& springs);
 

@@ -26,27 +26,38 @@ struct CellPressing {
   std::optional<double> friction;  ///< of the contacts meanwhile; not given: their own
   std::string where;
 };
-/// Grains at random places, pressed.
-struct PressedCells {
-  std::int64_t count = 400;  ///< grains of each cell
-  Sizes radius;
-  double density = required;  ///< kg/m³
+/// How grains become cells.
+struct CellPreparation {
   CellContact contact;
   std::vector<CellPressing> prepare;
   double tolerance = 1e-3;  ///< of the pressures
-  std::int64_t number = 1, seed = 1;
+  std::int64_t number = 1;  ///< of cells
 };
-struct DiscCells : PressedCells {
+/// Grains at random places, pressed.
+struct RandomCells : CellPreparation {
+  std::int64_t count = 400;  ///< grains of each cell
+  Sizes radius;
+  double density = required;  ///< kg/m³
+  std::int64_t seed = 1;
+};
+struct DiscCells : RandomCells {
   double thickness = required;  ///< m
 };
-struct SphereCells : PressedCells {};
+struct SphereCells : RandomCells {};
+/// Spheres whose centres lie in a box, which then repeats, pressed.
+struct CutCells : CellPreparation {
+  std::string file;                 ///< as dem grains are converted from
+  geometry::Box box = requiredBox;  ///< of the first cell, m
+  Vec3 step;                        ///< from each box to the next, m
+  std::optional<double> density;    ///< kg/m³, where the file has none
+};
 /// As `dovetail cell` writes them.
 struct CellFile {
   std::string file;
 };
 struct Cells {
   std::string name;
-  std::variant<DiscCells, SphereCells, CellFile> grains;
+  std::variant<DiscCells, SphereCells, CutCells, CellFile> grains;
   std::string where;
 };
 
