@@ -174,10 +174,8 @@ void requireNumbers(const Particles& particles) {
         throw InputError("a force or torque is not finite", "particles of a checkpoint", "take an older checkpoint");
 }
 
-/// All of a state but its terms, into `restored`, a copy of the model that it is for. Returns the terms.
-std::vector<TermOfState> readModel(const std::vector<char>& bytes, const std::string& path, Model& restored) {
-  ByteReader reader(bytes);
-  requireSameLaws(reader, restored, path);
+/// All of a state behind its laws but its terms, into `restored`, a copy of the model that it is for. Returns the terms.
+std::vector<TermOfState> readContent(ByteReader& reader, const std::string& path, Model& restored) {
   archiveScene(reader, restored);
   requireNumbers(restored.particles);
   loadDomain(reader, restored);
@@ -186,7 +184,23 @@ std::vector<TermOfState> readModel(const std::vector<char>& bytes, const std::st
   return terms;
 }
 
+std::vector<TermOfState> readModel(const std::vector<char>& bytes, const std::string& path, Model& restored) {
+  ByteReader reader(bytes);
+  requireSameLaws(reader, restored, path);
+  return readContent(reader, path, restored);
+}
+
 }  // namespace
+
+Model contentOf(const std::vector<char>& bytes, const std::string& path) {
+  ByteReader reader(bytes);
+  std::string laws;
+  std::vector<char> parameters;
+  reader(laws, parameters);
+  Model content;
+  readContent(reader, path, content);
+  return content;
+}
 
 std::vector<char> saveState(const Model& m) {
   ByteWriter writer;

@@ -3,10 +3,9 @@
 #include <numbers>
 #include <sstream>
 
-#include "build/parts.hpp"
 #include "build/sphere_table.hpp"
+#include "dovetail/dem/model/checkpoint.hpp"
 #include "dovetail/io/plain_text.hpp"
-#include "dovetail/scene/read.hpp"
 #include "run/checkpoints.hpp"
 
 namespace dovetail::scene {
@@ -29,13 +28,9 @@ GrainFile grainsOfTable(const fs::path& file) {
 
 double volumeOf(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
 
-/// The scene of a state, built anew, in that state.
 GrainFile grainsOfState(const Checkpoint& checkpoint, const fs::path& file) {
-  const Scene scene = sceneFromText(checkpoint.scene, file.string(), file.parent_path());
-  Built built = build(scene);
-  start(built, scene);
-  adopt(checkpoint, identityOf(scene), built, scene);
-  const dem::Particles& particles = built.run->grains.particles;
+  const dem::Model content = dem::contentOf(coupling::particlesOf(checkpoint.state), file.string());
+  const dem::Particles& particles = content.particles;
   GrainFile grains;
   std::size_t members = 0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
@@ -52,7 +47,7 @@ GrainFile grainsOfState(const Checkpoint& checkpoint, const fs::path& file) {
   if (members > 0)
     grains.notes.push_back("WARNING: " + std::to_string(members) +
                            " spheres are parts of clumps: they are written as single ones.");
-  if (const geometry::Periodicity& space = built.run->grains.pairs.periodicity(); space.any()) {
+  if (const geometry::Periodicity& space = content.pairs.periodicity(); space.any()) {
     grains.box = space.box;
     grains.periodic = space.axes;
   }

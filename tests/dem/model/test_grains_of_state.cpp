@@ -43,6 +43,20 @@ std::string refusalOfGrains(const Model& from, Model to) {
   return "nothing";
 }
 
+TEST(GrainsOfAState, AreLookedAtWhateverTheirLaws) {
+  Model whole = rubbing();
+  run(whole, dt, 50);
+  std::vector<char> bytes = saveState(whole);
+  const Model content = contentOf(bytes, "state");
+  EXPECT_EQ(content.particles.x, whole.particles.x);
+  EXPECT_EQ(content.particles.id, whole.particles.id);
+  EXPECT_EQ(content.pairs.pairs(), whole.pairs.pairs());
+  EXPECT_EQ(content.pairs.periodicity(), whole.pairs.periodicity());
+  EXPECT_EQ(content.time, whole.time);
+  bytes.resize(bytes.size() - 1);
+  EXPECT_THROW(contentOf(bytes, "state"), InputError);
+}
+
 TEST(GrainsOfAState, GoOnWithTheSpringsOfTheirContacts) {
   Model whole = rubbing();
   run(whole, dt, 200);
