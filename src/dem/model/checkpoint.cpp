@@ -174,7 +174,8 @@ void requireNumbers(const Particles& particles) {
         throw InputError("a force or torque is not finite", "particles of a checkpoint", "take an older checkpoint");
 }
 
-/// All of a state behind its laws but its terms, into `restored`, a copy of the model that it is for. Returns the terms.
+/// All of a state behind its laws but its terms, into `restored`, a copy of the model that it is for. Returns the
+/// terms.
 std::vector<TermOfState> readContent(ByteReader& reader, const std::string& path, Model& restored) {
   archiveScene(reader, restored);
   requireNumbers(restored.particles);

@@ -16,8 +16,8 @@ std::vector<char> saveState(const Model& m);
 /// Reads such bytes into a model, see readCheckpoint. @param where  they come from, for errors
 void loadState(const std::vector<char>& bytes, const std::string& where, Model& m);
 
-/// Particles, pairs, space and clock of such bytes, whatever the laws: to be looked at, as a model without laws and terms
-/// cannot go on. @throws InputError if the bytes are not of a model
+/// Particles, pairs, space and clock of such bytes, whatever the laws: to be looked at, as a model without laws and
+/// terms cannot go on. @throws InputError if the bytes are not of a model
 Model contentOf(const std::vector<char>& bytes, const std::string& where);
 
 /// Reads the grains alone from such bytes, into a model without any: particles and pairs with their memory, but no
