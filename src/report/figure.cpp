@@ -182,9 +182,9 @@ std::string gridOf(const Scale& x, const Scale& y, double top) {
   return svg + textAt(13.0, middle, "middle", y.label, format(" transform=\"rotate(-90 13 %.1f)\"", middle));
 }
 
-/// Class of a curve's line.
+/// Class of a curve's line: broken where the colours have come round.
 std::string colourOf(const Curve& curve, std::size_t number) {
-  return (curve.dashed ? "dashed c" : "c") + std::to_string(number % colours);
+  return (curve.dashed || number / colours % 2 == 1 ? "dashed c" : "c") + std::to_string(number % colours);
 }
 
 /// A disc; a ring where the colours have come round, so that no two curves look alike up to twice as many.

@@ -41,6 +41,13 @@ TEST(Svg, MarksOfManyCurvesDiffer) {
   EXPECT_EQ(count(svg, "\"ring c7\""), 0u);
 }
 
+TEST(Svg, LinesOfManyCurvesDiffer) {
+  Figure figure{"f", "", {"x"}, {"y"}, {}, {}};
+  for (int k = 0; k < 10; ++k) figure.curves.push_back({"c" + std::to_string(k), {0, 1}, {0.0, k + 1.0}});
+  const std::string svg = svgOf(figure);
+  for (const char* const line : {"\"c1\"", "\"c7\"", "\"dashed c1\""}) EXPECT_EQ(count(svg, line), 2u) << line;
+}
+
 TEST(Svg, HasAxesLegendAndOneLinePerCurve) {
   const Figure figure{"f",
                       "A <title>",

@@ -433,6 +433,39 @@ TEST(StudyVerb, TheShippedStudyConvergesInEveryWay) {
     }
 }
 
+/// A short and thin column: a packing under a lid, its grains alone, beside a solid, and as cells cut out of it.
+TEST(StudyVerb, TheShippedWaysOfAPulseAgree) {
+  const ScratchFolder folder;
+  const auto way = [](const std::string& name, const std::string& more) {
+    return R"({"name": ")" + name + R"(", "scene": ")" + SCENES + "/three-ways/pulse-" + name + R"(.json", )" + more +
+           "}";
+  };
+  const std::string state = R"("value": "{packing}/checkpoint.state"})",
+                    grains = R"({"key": "particles.0.file", )" + state + R"(, {"key": "walls.0.state.file", )" + state;
+  writeText(folder / "plan.json",
+            R"({"ways": [)" + way("packing", R"("prepares": true, "set": [{"key": "settle", "value": "20 ms"},
+                     {"key": "stages.1.kinetic", "value": "1e-7"}])") +
+                ", " + way("grains", R"("set": [)" + grains + "]") + ", " +
+                way("overlap", R"("set": [)" + grains + R"(, {"key": "grains", "value": "8*d"},
+                     {"key": "overlap", "value": "5*d"}])") +
+                ", " +
+                way("cells", R"("set": [{"key": "cells", "value": "1"}, {"key": "cells.0.file", )" + state + "]") +
+                R"(], "set": [{"key": "width", "value": "5*d"}, {"key": "length", "value": "25*d"},
+                   {"key": "near", "value": "5*d"}, {"key": "far", "value": "16*d"}, {"key": "pulse", "value": "10*d"}],
+                 "error": "near_vz_m_per_s, far_vz_m_per_s",
+                 "against": {"way": "grains", "norm": "relative", "stage": -1}})");
+  const Outcome outcome = runProgram({"study", (folder / "plan.json").string(), "--out", (folder / "out").string()});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json runs = Json::parse(readText(folder / "out/study.json"))["runs"];
+  ASSERT_EQ(runs.size(), 4u);
+  for (const Json& run : runs) {
+    ASSERT_EQ(run["outcome"], "finished") << run["message"];
+    EXPECT_LT(run["largest_residual_fraction"].get<double>(), 1e-3) << run["label"];
+  }
+  EXPECT_LT(runs[2]["error"].get<double>(), 0.08);
+  EXPECT_LT(runs[3]["error"].get<double>(), 0.5);  // one cell of 150 grains
+}
+
 TEST(ReportVerb, WritesAPageOnARunWithItsNumbers) {
   const Bounce bounce;
   ASSERT_EQ(runProgram({"run", bounce.file, "--out", bounce.out}).code, 0);
