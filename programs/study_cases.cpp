@@ -94,10 +94,11 @@ report::Json runCase(const scene::Scene& scene, const fs::path& folder, const St
 
 /// Nothing if the values cannot be: then the refusal says why.
 std::optional<scene::Scene> sceneOf(const StudySettings& settings, const std::string& file,
-                                    const std::vector<std::string>& values, std::optional<InputError>& refusal) {
+                                    const std::vector<std::string>& values, bool compared,
+                                    std::optional<InputError>& refusal) {
   try {
     scene::Scene scene = settings.read ? settings.read(values) : scene::readScene(file, values);
-    if (scene.output.series || !settings.needsSeries()) return scene;
+    if (scene.output.series || !settings.needsSeries() || !compared) return scene;
     refusal.emplace("the scene writes no series to compare", file, "add output.series, or --set output.series=1ms");
   } catch (const InputError& error) {
     refusal = error;
@@ -136,12 +137,18 @@ struct Earlier {
 /// @param rows  of the earlier study
 Earlier earlierOf(const fs::path& folder, const StudyRun& run, const scene::Scene& scene,
                   const std::vector<report::Json>& rows) {
-  if (!fs::exists(folder / "scene.json") || sceneText(scene::readRun(folder)) != sceneText(scene)) return {};
+  try {
+    if (!fs::exists(folder / "scene.json") || sceneText(scene::readRun(folder)) != sceneText(scene)) return {};
+  } catch (const InputError&) {  // of a run of another version: it is run anew
+    return {};
+  }
   for (const report::Json& row : rows)
-    if (row["label"] == run.label() && row["outcome"] == "finished") {
+    if (row["label"] == run.label() && row["outcome"] == "finished" &&
+        row["settings"].value("folder", "") == folder.filename().string()) {
       report::Json figures = row;
-      for (const char* const key : {"label", "way", "point", "outcome", "message", "settings", "on_front"})
+      for (const char* const key : {"label", "way", "point", "outcome", "message", "settings", "on_front", "prepares"})
         figures.erase(key);
+      if (run.prepares) figures["prepares"] = true;
       for (const auto& [key, value] : row.items())
         if (key == "covered" || key.starts_with("error")) figures.erase(key);
       return {figures, false};
@@ -179,6 +186,7 @@ report::Study studyOf(const StudySettings& settings) {
   const std::vector<report::Json> rows = earlierRows(settings);
   std::optional<InputError> first;
   std::vector<std::string> checked;  // ways
+  std::vector<bool> kept;            // runs of an earlier study
   for (const StudyRun& run : runs) {
     std::vector<std::string> all;
     for (const auto* const some : {&settings.set, &run.common, &run.set})
@@ -188,19 +196,25 @@ report::Study studyOf(const StudySettings& settings) {
     const fs::path folder = folderOf(settings, study.cases.size());
     if (!settings.act) values.emplace_back("folder", folder.filename().string());
     std::optional<InputError> refusal;
-    const std::optional<scene::Scene> scene = sceneOf(settings, run.scene, all, refusal);
+    const std::optional<scene::Scene> scene = sceneOf(settings, run.scene, all, !run.prepares, refusal);
     if (scene && settings.needsSeries() && !run.prepares && run.after.empty() &&
         std::ranges::find(checked, run.way) == checked.end())
       requireColumns(*scene, settings);
     if (refusal && !run.after.empty()) refusal.reset();  // what it begins with is not there yet
     if (!refusal) checked.push_back(run.way);
     if (!first) first = refusal;
-    const Earlier earlier = scene && settings.goOn ? earlierOf(folder, run, *scene, rows) : Earlier{};
+    // What begins with another is kept as long as that one is.
+    const bool mayStay =
+        scene && settings.goOn && std::ranges::all_of(run.after, [&](std::size_t k) { return kept[k]; });
+    const Earlier earlier = mayStay ? earlierOf(folder, run, *scene, rows) : Earlier{};
+    kept.push_back(earlier.figures.has_value());
     const auto work = [=, &settings] {
       if (earlier.figures) return *earlier.figures;
       std::optional<InputError> late = refusal;
-      const std::optional<scene::Scene> now = scene || late ? scene : sceneOf(settings, run.scene, all, late);
+      const std::optional<scene::Scene> now =
+          scene || late ? scene : sceneOf(settings, run.scene, all, !run.prepares, late);
       if (late) throw InputError(*late);
+      if (settings.needsSeries() && !run.prepares && !run.after.empty()) requireColumns(*now, settings);
       return runCase(*now, folder, settings, !run.prepares, earlier.resumes);
     };
     study.cases.push_back({run.label(), values, work, run.way, pointOf(settings, run), run.after});

@@ -36,7 +36,11 @@ report::Curve curveOf(const fs::path& file, std::span<const double> x, std::span
 
 /// When a stage of a finished run began, and the next; s.
 std::array<double, 2> timesOf(const fs::path& folder, std::int64_t stage) {
-  const Json stages = Json::parse(io::readWhole(folder / "summary.json", "summary")).at("times").at("stages");
+  const Json summary = Json::parse(io::readWhole(folder / "summary.json", "summary"), nullptr, false);
+  const Json stages =
+      summary.is_object() ? summary.value("times", Json::object()).value("stages", Json::array()) : Json();
+  if (!stages.is_array() || std::ranges::any_of(stages, [](const Json& one) { return !one.contains("begins_s"); }))
+    throw InputError("its summary does not say when stages began", folder.string(), "run it anew");
   const auto count = static_cast<std::int64_t>(stages.size()), number = stage > 0 ? stage - 1 : count + stage;
   if (number < 0 || number >= count)
     throw InputError("the run has " + std::to_string(count) + " stages", folder.string(),
@@ -89,12 +93,15 @@ Reference runOf(const StudySettings& settings, std::size_t run) {
   return [&settings, run](const std::string& column) { return curveOfRun(settings, run, column); };
 }
 
-/// Empty as long as the reference is not there, and for itself.
+/// Empty as long as the reference is not there, and for itself. @throws InputError if it did not finish
 Reference referenceOf(const StudySettings& settings, const std::vector<StudyRun>& runs, const std::vector<Json>& rows,
                       std::size_t run) {
   if (settings.against->way.empty()) return fileOf(settings);
-  for (const std::size_t k : references(settings, runs))
-    if (k != run && runs[k].repeat == runs[run].repeat && finished(rows[k])) return runOf(settings, k);
+  for (const std::size_t k : references(settings, runs)) {
+    if (k == run || runs[k].repeat != runs[run].repeat || rows[k].is_null()) continue;
+    if (finished(rows[k])) return runOf(settings, k);
+    throw InputError("its reference, \"" + runs[k].label() + "\", did not finish", "", "see the row of that run");
+  }
   return {};
 }
 
@@ -169,6 +176,8 @@ report::Json addErrors(const StudySettings& settings, const std::vector<StudyRun
     Json& row = rows[k];
     if (!finished(row) || row.contains("error") || runs[k].prepares) continue;
     try {
+      if (settings.exact && !row[settings.error.front()].is_number())
+        throw InputError("the figure is no number", settings.error.front(), "take another column");
       if (settings.exact)
         row["error"] = row[settings.error.front()].get<double>() - *settings.exact;
       else if (const Reference reference = referenceOf(settings, runs, rows, k))
@@ -178,7 +187,12 @@ report::Json addErrors(const StudySettings& settings, const std::vector<StudyRun
       row["message"] = error.what();
     }
   }
-  return settings.against ? scatterOf(settings, runs, rows) : Json::object();
+  if (!settings.against) return Json::object();
+  try {
+    return scatterOf(settings, runs, rows);
+  } catch (const InputError& error) {
+    return {{"scatter_message", error.what()}};
+  }
 }
 
 std::vector<std::string> curveFiles(const StudySettings& settings) {

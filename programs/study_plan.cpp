@@ -111,11 +111,14 @@ void requireWays(const StudyPlan& plan) {
 void findReference(const StudyPlan& plan, Against& against, const std::string& file) {
   std::vector<std::string> points;
   for (const StudyRun& run : runsOf(plan))
-    if (run.way == against.way && std::ranges::find(points, run.point) == points.end()) points.push_back(run.point);
+    if (run.way == against.way && !run.prepares && std::ranges::find(points, run.point) == points.end())
+      points.push_back(run.point);
   std::string list;
   for (const std::string& point : points) list += (list.empty() ? "" : "; ") + point;
   if (points.empty())
-    throw InputError("there is no way \"" + against.way + "\"", file + ", against.way", "name one of \"ways\"");
+    throw InputError("there is no way \"" + against.way + "\" to compare with", file + ", against.way",
+                     "name one of \"ways\" that does not prepare others");
+  if (points == std::vector<std::string>{""} && against.point == against.way) against.point.clear();
   if (against.point.empty() && points.size() == 1) return void(against.point = points.front());
   if (std::ranges::find(points, against.point) == points.end())
     throw InputError(
@@ -167,6 +170,7 @@ std::vector<std::string> partsOf(const std::string& text) {
     else if (c != ' ' || !parts.back().empty())
       parts.back() += c;
   }
+  for (std::string& part : parts) part.erase(part.find_last_not_of(' ') + 1);
   return parts;
 }
 
@@ -198,13 +202,29 @@ void findPreparations(StudyRun& run, const std::vector<StudyRun>& before) {
         if (std::ranges::find(run.after, k) == run.after.end()) run.after.push_back(k);
 }
 
+/// {NAME} that is no preparation: a wrong name would only be found when the packing has been made.
+void requireMarks(const StudyRun& run, const std::vector<StudyRun>& before, const std::string& where) {
+  for (const auto* const some : {&run.common, &run.set})
+    for (const Setting& one : *some)
+      for (std::size_t at = one.value.find('{'); at != std::string::npos; at = one.value.find('{', at + 1)) {
+        const std::size_t end = one.value.find_first_of("{}\":,", at + 1);
+        if (end == std::string::npos || one.value[end] != '}' || end == at + 1) continue;  // an object
+        const std::string mark = one.value.substr(at, end + 1 - at);
+        if (std::ranges::none_of(before, [&](const StudyRun& b) { return b.prepares && markOf(b) == mark; }))
+          throw InputError("no way before this one prepares " + mark, where + ", " + one.key,
+                           "name an earlier way with \"prepares\": true");
+      }
+}
+
 }  // namespace
 
 std::string withFolders(std::string text, const StudyRun& run, const std::vector<StudyRun>& runs,
                         const std::function<std::string(std::size_t)>& folder) {
   for (const std::size_t k : run.after) {
     const std::string mark = markOf(runs[k]);
-    for (std::size_t at; (at = text.find(mark)) != std::string::npos;) text.replace(at, mark.size(), folder(k));
+    const std::string name = folder(k);
+    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += name.size())
+      text.replace(at, mark.size(), name);
   }
   return text;
 }
@@ -222,8 +242,13 @@ std::vector<StudyRun> runsOf(const StudyPlan& plan) {
     std::vector<StudyRun> some{{way.scene, way.name, "", "", way.set, {}, {}}};
     const auto multiply = [&](const Axis& axis, std::string StudyRun::*label) {
       std::vector<StudyRun> more;
+      const std::vector<Point> points = pointsOf(axis);
+      for (const Point& point : points)
+        if (std::ranges::count(points, point.name, &Point::name) > 1)
+          throw InputError("two points of the axis are named \"" + point.name + "\"", axis.where,
+                           "give each a name or a value of its own");
       for (const StudyRun& run : some)
-        for (const Point& point : pointsOf(axis)) {
+        for (const Point& point : points) {
           more.push_back(run);
           std::string& name = more.back().*label;
           name += (name.empty() ? "" : ", ") + point.name;
@@ -238,6 +263,7 @@ std::vector<StudyRun> runsOf(const StudyPlan& plan) {
     for (StudyRun& run : some) {
       run.prepares = way.prepares;
       findPreparations(run, all);
+      requireMarks(run, all, way.where);
     }
     all.insert(all.end(), some.begin(), some.end());
   }

@@ -126,6 +126,7 @@ TEST(StudyVerb, RefusesBeforeAnythingIsRun) {
   };
   refused({"--over", "share"}, "key=a,b,c");
   refused({"--over", "share=1,,2"}, "a value is empty");
+  refused({"--over", "share=0.1, 0.1"}, "two points of the axis are named");
   refused({"--over", "shore=0.1"}, "share");
   refused({"--over", "share=wide,broad"}, "wide");
   refused({"--over", "share=0.1", "--workers", "0"}, "--workers");
@@ -377,6 +378,11 @@ TEST(StudyVerb, WaysBeginWithWhatOthersPrepared) {
                          after = io::readCsv(bounce.folder / ("out/00" + std::to_string(k + 1)) / "series.csv");
     EXPECT_EQ(after.column("particles_kinetic_J")[0], before.column("particles_kinetic_J").back());
   }
+  // Another start: what begins with it is not kept.
+  const Outcome changed = runProgram({"study", plan, "--continue", "--set", "steps.dt=1 us", "--out", bounce.out});
+  ASSERT_EQ(changed.code, 0) << changed.err;
+  const Json anew = Json::parse(readText(bounce.folder / "out/study.json"))["runs"];
+  for (std::size_t k = 2; k < 6; ++k) EXPECT_NE(anew[k]["wall_seconds"], runs[k]["wall_seconds"]) << k;
   // The second start cannot be: what begins with it says so.
   write(R"(, "over": [])");
   const Outcome less =
@@ -388,6 +394,34 @@ TEST(StudyVerb, WaysBeginWithWhatOthersPrepared) {
   const Outcome bad = runProgram({"study", plan, "--out", bounce.out + "3"});
   EXPECT_EQ(bad.code, 2);
   EXPECT_NE(bad.err.find("prepares has axes"), std::string::npos) << bad.err;
+  write("");
+  std::string text = readText(plan);
+  text.replace(text.find("{start}"), 7, "{strat}");
+  writeText(plan, text);
+  const Outcome unknown = runProgram({"study", plan, "--out", bounce.out + "4"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_NE(unknown.err.find("prepares {strat}"), std::string::npos) << unknown.err;
+}
+
+TEST(StudyVerb, WhatCannotBeComparedIsToldInItsRow) {
+  Ways ways;
+  // A column that is zero has no relative distance, and no scatter either; all runs are there all the same.
+  ways.write(R"("way": "hard", "point": "share=0.01", "norm": "relative")", "momentum_x_Ns");
+  ASSERT_EQ(runProgram({"study", ways.plan, "--out", ways.out}).code, 0);
+  const Json study = Json::parse(readText(ways.folder / "out/study.json"));
+  ASSERT_EQ(study["runs"].size(), 6u);
+  EXPECT_NE(study["scatter_message"].get<std::string>().find("zero"), std::string::npos);
+  EXPECT_NE(study["runs"][2]["message"].get<std::string>().find("zero"), std::string::npos);
+  // A reference that cannot be.
+  ways.write(R"("way": "hard", "point": "share=0.01", "norm": "relative")");
+  std::string text = readText(ways.plan);
+  text.replace(text.find("0.01, 0.1"), 9, "-1, 0.1");
+  text.replace(text.find("share=0.01"), 10, "share=-1");
+  writeText(ways.plan, text);
+  ASSERT_EQ(runProgram({"study", ways.plan, "--replace", "--out", ways.out}).code, 0);
+  const Json runs = ways.runs();
+  EXPECT_EQ(runs[0]["outcome"], "refused");
+  EXPECT_NE(runs[2]["message"].get<std::string>().find("\"hard: share=-1, particles"), std::string::npos) << runs[2];
 }
 
 TEST(StudyVerb, RefusesWaysThatCannotBeCompared) {

@@ -173,6 +173,15 @@ TEST_F(StatesOfOthers, WallsStartWhereTheyWere) {
                    R"("shape": "sphere", "centre": [0, 0, 0.2], "radius": 1)"),
           "another shape in the state");
   refused(replaced("checkpoint.state", "nowhere.state"), "nowhere.state");
+  // The box too, whose sides are those that it has there.
+  const std::string box = R"("name": "sides", "shape": "box")",
+                    there = R"("name": "sides", )" + state + R"("shape": "box")";
+  const auto both = run(replaced(box, there), next);
+  ASSERT_EQ(both.code, 0) << both.err;
+  EXPECT_EQ(io::readCsv(next / "series.csv").column("sides_x_N")[0], after.column("sides_x_N")[0]);
+  std::string other = replaced(box, there);
+  other.replace(other.find(R"("open": ["z+"])"), 14, R"("open": ["z-"])");
+  refused(other, "another shape in the state");
 }
 
 TEST_F(StatesOfOthers, TellWhatBeginsWithoutSprings) {

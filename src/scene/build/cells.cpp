@@ -89,6 +89,9 @@ rve::Grains grainsIn(const geometry::Box& box, const grain_io::GrainFile& grains
     for (int k = 0; k < 3; ++k) {
       if (grains.box && grains.periodic && (*grains.periodic)[static_cast<std::size_t>(k)]) {
         const double length = grains.box->upper[k] - grains.box->lower[k];
+        if (box.upper[k] - box.lower[k] > length * (1.0 + 1e-9))
+          throw InputError("the box is longer than the period of the packing, " + formatNumber(length) + " m", file,
+                           "make it as long as the period, or shorter");
         x[k] -= length * std::floor((x[k] - box.lower[k]) / length);
       }
       within = within && x[k] >= box.lower[k] && x[k] < box.upper[k];

@@ -1,6 +1,7 @@
 #include "from_state.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "dovetail/core/finite.hpp"
 #include "dovetail/dem/model/checkpoint.hpp"
@@ -134,6 +135,11 @@ void takeSolid(fem::Model& model, const Solid& solid, std::vector<std::string>& 
 
 namespace {
 
+std::set<std::string> openSides(const Wall& wall) {
+  const auto* const box = std::get_if<BoxWalls>(&wall.shape);
+  return box ? std::set<std::string>(box->open.begin(), box->open.end()) : std::set<std::string>();
+}
+
 std::size_t primitivesIn(const Wall& wall) {
   if (const auto* const box = std::get_if<BoxWalls>(&wall.shape)) return 6 - box->open.size();
   return std::holds_alternative<SurfaceFile>(wall.shape) ? 0 : 1;
@@ -156,7 +162,7 @@ std::vector<dem::PrimitiveWall> wallOfState(const Wall& wall, const dem::Model& 
     throw InputError("the state has no wall \"" + wall.name + "\"", file,
                      names.empty() ? "name the wall in the scene of that run" : adviceFor(wall.name, names));
   }
-  if (found->shape.index() != wall.shape.index() || primitivesIn(*found) != primitivesIn(wall))
+  if (found->shape.index() != wall.shape.index() || openSides(*found) != openSides(wall))
     throw InputError("the wall \"" + wall.name + "\" has another shape in the state", file,
                      "give it the shape that it has there");
   std::size_t skipped = 0;

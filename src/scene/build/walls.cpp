@@ -2,6 +2,7 @@
 #include "dovetail/dem/model/walls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "dovetail/geometry/triangle_mesh.hpp"
@@ -51,15 +52,25 @@ void addAlone(const Target& to, dem::PrimitiveWall made) {
 }
 void add(const Target& to, const Plane& plane) { addAlone(to, dem::makePlane(plane.point, plane.normal)); }
 void add(const Target& to, const BoxWalls& box) {
-  to.parts.centre = 0.5 * (box.box.lower + box.box.upper);
-  for (const bool upper : {false, true})
+  const std::array<Vec3, 2> shape{box.box.lower, box.box.upper};
+  std::array<Vec3, 2> corner = shape;  // where they are
+  std::array<bool, 2> known{};
+  for (const std::size_t upper : {std::size_t{0}, std::size_t{1}})
     for (int k = 0; k < 3; ++k) {
-      const std::string side = std::string(1, "xyz"[k]) + (upper ? "+" : "-");
+      const std::string side = std::string(1, "xyz"[k]) + (upper == 1 ? "+" : "-");
       if (std::find(box.open.begin(), box.open.end(), side) != box.open.end()) continue;
       Vec3 normal;
-      normal[k] = upper ? -1.0 : 1.0;
-      add(to, placed(to, dem::makePlane(upper ? box.box.upper : box.box.lower, normal)));
+      normal[k] = upper == 1 ? -1.0 : 1.0;
+      dem::PrimitiveWall plane = placed(to, dem::makePlane(shape[upper], normal));
+      corner[upper] = plane.point;
+      known[upper] = true;
+      add(to, std::move(plane));
     }
+  if (known[0] != known[1]) {
+    const std::size_t one = known[0] ? 0 : 1;
+    corner[1 - one] += corner[one] - shape[one];
+  }
+  to.parts.centre = 0.5 * (corner[0] + corner[1]);
 }
 void add(const Target& to, const Cylinder& cylinder) {
   addAlone(to, dem::makeCylinder(cylinder.point, cylinder.axis, cylinder.radius, cylinder.inside));

@@ -97,7 +97,7 @@ Mean meanOver(const geometry::Box& box, const fem::SolidMesh& mesh, const fem::N
   for (int k = 0; k < 3; ++k) {
     lower[k] = std::max(box.lower[k], extent.lower[k]);
     step[k] = (std::min(box.upper[k], extent.upper[k]) - lower[k]) / fineness;
-    if (step[k] < 0.0) return {};
+    if (step[k] < 0.0 || (step[k] == 0.0 && extent.upper[k] > extent.lower[k])) return {};
   }
   const fem::ElementLocator locator(mesh.groups, position);
   std::vector<double> weight(position.size(), 0.0);
