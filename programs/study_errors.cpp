@@ -55,7 +55,7 @@ report::Curve curveOfRun(const StudySettings& settings, std::size_t run, const s
   const fs::path folder = folderOf(settings, run), file = folder / "series.csv";
   const io::TimeSeries series = io::readCsv(file);
   requireColumns(series, file, {against.along, column}, "correct its name");
-  const report::Curve whole = curveOf(file, series.column(against.along), series.column(column));
+  report::Curve whole = curveOf(file, series.column(against.along), series.column(column));
   if (against.stage == 0) return whole;
   const auto [begin, end] = timesOf(folder, against.stage);
   const auto time = series.column("time_s");

@@ -249,7 +249,8 @@ TEST(StudyVerb, HoldsWaysToRunsOfTheStudyRepeatByRepeat) {
   ways.write(R"("way": "hard", "point": "share=0.01", "norm": "relative")");
   const Outcome outcome = runProgram({"study", ways.plan, "--out", ways.out});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const Json study = Json::parse(readText(ways.folder / "out/study.json")), runs = study["runs"];
+  const Json study = Json::parse(readText(ways.folder / "out/study.json"));
+  const Json& runs = study["runs"];
   ASSERT_EQ(runs.size(), 6u);
   const auto curveIn = [&](std::size_t run, const std::string& column) {
     const io::TimeSeries series =
@@ -369,7 +370,8 @@ TEST(StudyVerb, WaysBeginWithWhatOthersPrepared) {
   write("");
   const Outcome outcome = runProgram({"study", plan, "--workers", "3", "--out", bounce.out});
   ASSERT_EQ(outcome.code, 0) << outcome.err;
-  const Json study = Json::parse(readText(bounce.folder / "out/study.json")), runs = study["runs"];
+  const Json study = Json::parse(readText(bounce.folder / "out/study.json"));
+  const Json& runs = study["runs"];
   ASSERT_EQ(runs.size(), 6u);
   ASSERT_EQ(study["points"].size(), 2u);  // the start is not compared
   for (std::size_t k = 2; k < 6; ++k) {
