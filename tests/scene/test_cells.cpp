@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "../io/scratch_folder.hpp"
 #include "cell_blocks.hpp"
 #include "dovetail/core/archive.hpp"
 #include "dovetail/core/parallel.hpp"
