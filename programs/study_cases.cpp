@@ -1,11 +1,11 @@
 #include "study_cases.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <optional>
 
 #include "dovetail/core/error.hpp"
+#include "dovetail/core/stopwatch.hpp"
 #include "dovetail/io/output_folder.hpp"
 #include "dovetail/io/plain_text.hpp"
 #include "dovetail/io/time_series.hpp"
@@ -63,11 +63,12 @@ void requireFigures(const fs::path& folder, const StudySettings& settings, const
                        "take one of " + (folder / "series.csv").string());
 }
 
-/// What the stages of a run took, in all programs that ran them, s.
-double secondsOfStages(const fs::path& folder) {
-  double sum = 0.0;
+/// What the stages of a run took, in all programs that ran them.
+TimeTaken takenByStages(const fs::path& folder) {
+  TimeTaken sum;
   const report::Json summary = report::Json::parse(io::readWhole(folder / "summary.json", "summary"));
-  for (const report::Json& stage : summary.at("times").at("stages")) sum += stage.at("seconds").get<double>();
+  for (const report::Json& stage : summary.at("times").at("stages"))
+    sum += {stage.at("seconds").get<double>(), stage.at("processor_seconds").get<double>()};
   return sum;
 }
 
@@ -77,11 +78,12 @@ report::Json runCase(const scene::Scene& scene, const fs::path& folder, const St
     setThreads(*settings.threadsEach);
   else if (settings.workers > 0)
     setThreads(std::max(1, detail::processors() / settings.workers));
-  const auto begun = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const report::Json own = settings.act ? settings.act(scene) : report::Json::object();
   report::Json figures = settings.act ? report::Json{{"finished", true}} : runStages(scene, folder, resumes);
-  const double here = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  figures["wall_seconds"] = resumes && figures["finished"] == true ? secondsOfStages(folder) : here;
+  const TimeTaken taken = resumes && figures["finished"] == true ? takenByStages(folder) : watch.sinceBegin();
+  figures["wall_seconds"] = taken.wall;
+  figures["processor_seconds"] = taken.processor;
   if (!settings.act && fs::exists(folder / "series.csv")) addSeries(folder / "series.csv", figures);
   figures.update(own);
   if (settings.measure && figures["finished"] == true) figures.update(settings.measure(folder));
@@ -177,6 +179,8 @@ report::Study studyOf(const StudySettings& settings) {
   study.name = "study";
   study.folder = settings.folder;
   study.workers = settings.workers;
+  study.cost = {"processor_seconds", "processor time"};
+  study.size = settings.size;
   if (!settings.error.empty()) study.fronts = {{settings.hasError() ? "error" : settings.error.front(), "on_front"}};
   study.shown = shownFigures(settings);
   const std::vector<StudyRun> runs = runsOf(settings);
@@ -217,7 +221,8 @@ report::Study studyOf(const StudySettings& settings) {
       if (settings.needsSeries() && !run.prepares && !run.after.empty()) requireColumns(*now, settings);
       return runCase(*now, folder, settings, !run.prepares, earlier.resumes);
     };
-    study.cases.push_back({run.label(), values, work, run.way, pointOf(settings, run), run.after});
+    study.cases.push_back({run.label(), values, work, run.way, pointOf(settings, run), sizeOf(run, settings.size),
+                           seriesOf(run, settings.size), run.after});
   }
   if (checked.empty()) throw InputError(*first);
   return study;

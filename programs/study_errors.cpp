@@ -70,10 +70,10 @@ report::Curve curveOfRun(const StudySettings& settings, std::size_t run, const s
 
 bool isReference(const StudySettings& settings, const StudyRun& run) {
   const auto& against = settings.against;
-  return against && !against->way.empty() && run.way == against->way && run.point == against->point;
+  return against && !against->way.empty() && run.way == against->way && isAt(run, against->point);
 }
 
-/// The repeats of the reference among the runs, ascending.
+/// Runs that others are held to, ascending: of one point its repeats, or of several.
 std::vector<std::size_t> references(const StudySettings& settings, const std::vector<StudyRun>& runs) {
   std::vector<std::size_t> found;
   for (std::size_t k = 0; k < runs.size(); ++k)
@@ -98,7 +98,7 @@ Reference referenceOf(const StudySettings& settings, const std::vector<StudyRun>
                       std::size_t run) {
   if (settings.against->way.empty()) return fileOf(settings);
   for (const std::size_t k : references(settings, runs)) {
-    if (k == run || runs[k].repeat != runs[run].repeat || rows[k].is_null()) continue;
+    if (k == run || !areBeside(runs[k], runs[run], settings.against->point) || rows[k].is_null()) continue;
     if (finished(rows[k])) return runOf(settings, k);
     throw InputError("its reference, \"" + runs[k].label() + "\", did not finish", "", "see the row of that run");
   }
@@ -127,7 +127,10 @@ void addDistance(const StudySettings& settings, const Reference& reference, std:
 
 Json scatterOf(const StudySettings& settings, const std::vector<StudyRun>& runs, const std::vector<Json>& rows) {
   const std::vector<std::size_t> repeats = references(settings, runs);
-  if (repeats.size() < 2 || !std::ranges::all_of(repeats, [&](std::size_t k) { return finished(rows[k]); }))
+  const bool onePoint =
+      std::ranges::all_of(repeats, [&](std::size_t k) { return runs[k].point == runs[repeats[0]].point; });
+  if (repeats.size() < 2 || !onePoint ||
+      !std::ranges::all_of(repeats, [&](std::size_t k) { return finished(rows[k]); }))
     return Json::object();
   std::vector<double> distances;
   for (const std::string& column : settings.error) {

@@ -1,6 +1,8 @@
 #include "study_plan.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/io/plain_text.hpp"
@@ -33,7 +35,7 @@ void describe(Fields& f, Way& v) {
   f.list({"over", "axes, as of a study; a single run if not given"}, v.over);
   f.flag({"prepares",
           "whether later ways begin with what it writes, such as a packing: {NAME} in their values is the "
-          "folder of its run, with the same repeat; it is not compared"},
+          "folder of its run with the same repeat, and the same value on each axis of its own; it is not compared"},
          v.prepares);
 }
 void describe(Fields& f, Against& v) {
@@ -77,6 +79,10 @@ void describeStudy(Fields& f, StudyPlan& v, Read& read) {
   f.number({"exact", "value of the column: the error is the difference from it"}, v.exact,
            scene::any(scene::unit::none));
   f.object({"against", "a curve: the error is the distance of the column from it"}, v.against);
+  f.text({"size",
+          "key of an axis whose values are numbers, such as a number of grains along an edge: a further figure has "
+          "the processor time over it, and a table the sizes from which one way costs less than another"},
+         v.size, false);
 }
 
 std::vector<Point> pointsOf(const Axis& axis) {
@@ -100,17 +106,26 @@ void requireAxes(const std::vector<Axis>& axes) {
 void requireWays(const StudyPlan& plan) {
   for (const Way& way : plan.ways) {
     requireAxes(way.over);
-    if (way.prepares && !way.over.empty())
-      throw InputError("a way that prepares has axes", way.where, "make it a way for each point, or a repeat");
     if (std::ranges::count(plan.ways, way.name, &Way::name) > 1)
       throw InputError("two ways are named \"" + way.name + "\"", way.where, "give each a name of its own");
   }
 }
 
-/// Of the study's own runs: the point that the rest is held to.
-void findReference(const StudyPlan& plan, Against& against, const std::string& file) {
+/// Points of the way of the reference at which a run may be held to it.
+std::vector<std::string> pointsBeside(const StudyRun& run, const std::vector<StudyRun>& runs, const Against& against) {
   std::vector<std::string> points;
-  for (const StudyRun& run : runsOf(plan))
+  for (const StudyRun& one : runs)
+    if (one.way == against.way && isAt(one, against.point) && areBeside(one, run, against.point) &&
+        std::ranges::find(points, one.point) == points.end())
+      points.push_back(one.point);
+  return points;
+}
+
+/// Every run has one among the study's own that it is held to.
+void findReference(const StudyPlan& plan, Against& against, const std::string& file) {
+  const std::vector<StudyRun> runs = runsOf(plan);
+  std::vector<std::string> points;
+  for (const StudyRun& run : runs)
     if (run.way == against.way && !run.prepares && std::ranges::find(points, run.point) == points.end())
       points.push_back(run.point);
   std::string list;
@@ -119,11 +134,25 @@ void findReference(const StudyPlan& plan, Against& against, const std::string& f
     throw InputError("there is no way \"" + against.way + "\" to compare with", file + ", against.way",
                      "name one of \"ways\" that does not prepare others");
   if (points == std::vector<std::string>{""} && against.point == against.way) against.point.clear();
-  if (against.point.empty() && points.size() == 1) return void(against.point = points.front());
-  if (std::ranges::find(points, against.point) == points.end())
-    throw InputError(
-        against.point.empty() ? "the way has several points" : "the way has no point \"" + against.point + "\"",
-        file + ", against.point", "take one of " + list);
+  if (std::ranges::none_of(runs,
+                           [&](const StudyRun& run) { return run.way == against.way && isAt(run, against.point); }))
+    throw InputError("the way has no point \"" + against.point + "\"", file + ", against.point", "take one of " + list);
+  for (const StudyRun& run : runs) {
+    if (run.prepares || (run.way == against.way && isAt(run, against.point))) continue;
+    const std::size_t count = pointsBeside(run, runs, against).size();
+    if (count != 1)
+      throw InputError(count == 0 ? "no run of the way stands beside \"" + run.label() + "\""
+                                  : "the way has several points beside \"" + run.label() + "\"",
+                       file + ", against.point", "take one of " + list);
+  }
+}
+
+void requireSizes(const StudyPlan& plan, const std::string& file) {
+  bool any = false;
+  for (const StudyRun& run : runsOf(plan)) any = sizeOf(run, plan.size).has_value() || any;
+  if (!any)
+    throw InputError("no axis has the key \"" + plan.size + "\"", file + ", size",
+                     "name the key of an axis that ways have in common");
 }
 
 }  // namespace
@@ -147,6 +176,7 @@ StudyPlan readStudy(const std::string& file) {
     throw InputError("there are \"ways\" beside a scene or axes of the study's own", file,
                      "give each way its scene and its axes");
   requireWays(plan);
+  if (!plan.size.empty()) requireSizes(plan, file);
   if (plan.repeat) requireAxes({*plan.repeat});
   if (!read.columns.empty()) plan.columns = partsOf(read.columns);
   if (!read.error.empty()) plan.error = partsOf(read.error);
@@ -192,11 +222,19 @@ namespace {
 
 std::string markOf(const StudyRun& run) { return "{" + run.way + "}"; }
 
+/// Whether a run can begin with it: it is where the run is, on all of its own axes.
+bool preparesFor(const StudyRun& before, const StudyRun& run) {
+  return before.prepares && areBeside(before, run) &&
+         std::ranges::all_of(before.places, [&](const StudyRun::Place& own) {
+           return std::ranges::any_of(run.places, [&](const StudyRun::Place& one) { return one.name == own.name; });
+         });
+}
+
 /// The numbers of those before that the settings name.
 void findPreparations(StudyRun& run, const std::vector<StudyRun>& before) {
   for (std::size_t k = 0; k < before.size(); ++k)
     for (const auto* const some : {&run.common, &run.set})
-      if (before[k].prepares && before[k].repeat == run.repeat && std::ranges::any_of(*some, [&](const Setting& one) {
+      if (preparesFor(before[k], run) && std::ranges::any_of(*some, [&](const Setting& one) {
             return one.value.find(markOf(before[k])) != std::string::npos;
           }))
         if (std::ranges::find(run.after, k) == run.after.end()) run.after.push_back(k);
@@ -210,9 +248,10 @@ void requireMarks(const StudyRun& run, const std::vector<StudyRun>& before, cons
         const std::size_t end = one.value.find_first_of("{}\":,", at + 1);
         if (end == std::string::npos || one.value[end] != '}' || end == at + 1) continue;  // an object
         const std::string mark = one.value.substr(at, end + 1 - at);
-        if (std::ranges::none_of(before, [&](const StudyRun& b) { return b.prepares && markOf(b) == mark; }))
-          throw InputError("no way before this one prepares " + mark, where + ", " + one.key,
-                           "name an earlier way with \"prepares\": true");
+        if (std::ranges::none_of(before, [&](const StudyRun& b) { return preparesFor(b, run) && markOf(b) == mark; }))
+          throw InputError("no way before this one prepares " + mark + " for \"" + run.label() + "\"",
+                           where + ", " + one.key,
+                           "name an earlier way with \"prepares\": true, whose axes this one has too");
       }
 }
 
@@ -229,6 +268,43 @@ std::string withFolders(std::string text, const StudyRun& run, const std::vector
   return text;
 }
 
+bool areBeside(const StudyRun& a, const StudyRun& b, const std::string& point) {
+  const std::vector<std::string> named = partsOf(point);
+  const auto isNamed = [&](const StudyRun::Place& one) { return std::ranges::find(named, one.name) != named.end(); };
+  return a.repeat == b.repeat && std::ranges::all_of(a.places, [&](const StudyRun::Place& one) {
+           return one.key.empty() || isNamed(one) || std::ranges::all_of(b.places, [&](const StudyRun::Place& other) {
+                    return other.key != one.key || other.name == one.name;
+                  });
+         });
+}
+
+bool isAt(const StudyRun& run, const std::string& point) {
+  if (point.empty() || point == run.point) return true;
+  return std::ranges::all_of(partsOf(point), [&](const std::string& name) {
+    return std::ranges::any_of(run.places, [&](const StudyRun::Place& one) { return one.name == name; });
+  });
+}
+
+std::optional<double> sizeOf(const StudyRun& run, const std::string& key) {
+  for (const StudyRun::Place& place : run.places) {
+    if (key.empty() || place.key != key) continue;
+    const std::string value = place.name.substr(key.size() + 1);
+    char* end = nullptr;
+    const double size = std::strtod(value.c_str(), &end);
+    if (*end != '\0' || !(size > 0.0) || !std::isfinite(size))
+      throw InputError("the size \"" + value + "\" of a run is no number above 0", key, "write plain numbers");
+    return size;
+  }
+  return {};
+}
+
+std::string seriesOf(const StudyRun& run, const std::string& key) {
+  std::string series = run.way;
+  for (const StudyRun::Place& place : run.places)
+    if (place.key != key) series += (series.empty() ? "" : ", ") + place.name;
+  return series;
+}
+
 std::string StudyRun::label() const {
   std::string text = point;
   if (!repeat.empty()) text += (text.empty() ? "" : ", ") + repeat;
@@ -239,7 +315,7 @@ std::string StudyRun::label() const {
 std::vector<StudyRun> runsOf(const StudyPlan& plan) {
   std::vector<StudyRun> all;
   for (const Way& way : plan.ways) {
-    std::vector<StudyRun> some{{way.scene, way.name, "", "", way.set, {}, {}}};
+    std::vector<StudyRun> some{{way.scene, way.name, "", "", way.set, {}, {}, {}}};
     const auto multiply = [&](const Axis& axis, std::string StudyRun::*label) {
       std::vector<StudyRun> more;
       const std::vector<Point> points = pointsOf(axis);
@@ -258,7 +334,12 @@ std::vector<StudyRun> runsOf(const StudyPlan& plan) {
       if (all.size() + some.size() > 10000)
         throw InputError("there are more than 10000 runs", axis.where, "give fewer values");
     };
-    for (const Axis& axis : way.over) multiply(axis, &StudyRun::point);
+    for (const Axis& axis : way.over) {
+      multiply(axis, &StudyRun::point);
+      const std::size_t points = pointsOf(axis).size();
+      for (std::size_t k = 0; k < some.size(); ++k)
+        some[k].places.push_back({axis.key, pointsOf(axis)[k % points].name});
+    }
     if (plan.repeat) multiply(*plan.repeat, &StudyRun::repeat);
     for (StudyRun& run : some) {
       run.prepares = way.prepares;

@@ -54,6 +54,7 @@ struct StudyPlan {
   std::vector<std::string> error;    ///< columns; empty: the largest residual
   std::optional<double> exact;
   std::optional<Against> against;
+  std::string size;  ///< key of an axis with numbers: costs are compared over it; empty: none
 };
 
 inline constexpr const char* normWords = "mean|largest|end|relative";
@@ -79,13 +80,27 @@ struct StudyRun {
   std::string way, point, repeat;  ///< labels
   std::vector<Setting> common;     ///< of all runs of its way
   std::vector<Setting> set;        ///< what is its own
+  /// Its place on each axis: the key (empty for axes of named points), and the name of the point.
+  struct Place {
+    std::string key, name;
+  };
+  std::vector<Place> places;
   std::vector<std::size_t> after;  ///< numbers of the runs that it begins with
   bool prepares = false;
   std::string label() const;
 };
+/// Whether the two have the same repeat, and the same value on each axis that both have, other than those that the
+/// point names. @param point  as of isAt
+bool areBeside(const StudyRun& a, const StudyRun& b, const std::string& point = "");
+/// Whether it is of the point, given by the names of its places on some of the axes, with commas between them.
+bool isAt(const StudyRun& run, const std::string& point);
 /// The text with {NAME} of ways that prepare replaced by folder(number of their run).
 std::string withFolders(std::string text, const StudyRun& run, const std::vector<StudyRun>& runs,
                         const std::function<std::string(std::size_t)>& folder);
+/// The number of its place on the axis of this key; nothing if it has none. @throws InputError if it is no number > 0
+std::optional<double> sizeOf(const StudyRun& run, const std::string& key);
+/// Its way, with the names of its places on all other axes.
+std::string seriesOf(const StudyRun& run, const std::string& key);
 /// All runs of the plan: of each way every combination of the points, the last axis fastest, each repeated.
 /// @throws InputError if they are more than 10 000
 std::vector<StudyRun> runsOf(const StudyPlan& plan);

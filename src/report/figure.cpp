@@ -229,6 +229,7 @@ std::string legendOf(const Figure& figure, double& y) {
   double x = left;
   y += row;
   for (std::size_t k = 0; k < curves.size(); ++k) {
+    if (curves[k].like) continue;
     const double length = 26.0 + lengthOf(curves[k].name) + 12.0;
     if (x > left && x + length > width) {
       x = left;
@@ -283,8 +284,11 @@ std::string drawn(const Figure& figure, const std::string& style) {
   }
   const Scale x = scaleOf(figure.x, across, 0.05), y = scaleOf(figure.y, up, 1.0);
   body += gridOf(x, y, top);
-  for (std::size_t k = 0; k < figure.curves.size(); ++k)
-    body += rangesOf(figure.curves[k], x, y, top, k) + pathOf(figure.curves[k], Drawn(figure.curves[k], x, y, top), k);
+  for (std::size_t k = 0; k < figure.curves.size(); ++k) {
+    const Curve& curve = figure.curves[k];
+    const std::size_t colour = curve.like.value_or(k);
+    body += rangesOf(curve, x, y, top, colour) + pathOf(curve, Drawn(curve, x, y, top), colour);
+  }
   height += plotHeight + 38.0;
   body += legendOf(figure, height);
   return framed(figure, height, body);

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iostream>
 #include <map>
+#include <numeric>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/lost_error.hpp"
@@ -18,6 +19,7 @@
 #include "dovetail/report/figure.hpp"
 #include "dovetail/report/front.hpp"
 #include "dovetail/report/page.hpp"
+#include "dovetail/report/scaling.hpp"
 #include "dovetail/report/text.hpp"
 
 namespace dovetail::report {
@@ -90,10 +92,10 @@ Curve curveOf(const std::vector<StudyPoint>& points, const std::string& name,
   return curve;
 }
 
-/// Error against run time: the points of each way, or all and those on the front joined.
-Figure frontFigure(const std::vector<StudyPoint>& points, const std::string& error, const std::string& name,
-                   const Json& whole) {
-  Figure figure{name, error + " against run time", {"run time (s)", true}, {"|" + error + "|", true}, {}, {}};
+/// Error against cost: the points of each way, or all and those on the front joined.
+Figure frontFigure(const std::vector<StudyPoint>& points, const Study& study, const Json& whole) {
+  const std::string &error = study.fronts.front().error, &cost = study.cost.name;
+  Figure figure{study.name, error + " against " + cost, {cost + " (s)", true}, {"|" + error + "|", true}, {}, {}};
   std::vector<std::string> ways;
   for (const StudyPoint& point : points)
     if (std::ranges::find(ways, point.way) == ways.end()) ways.push_back(point.way);
@@ -128,19 +130,43 @@ Table tableOf(const std::vector<StudyPoint>& points, const Study::Front& front) 
   return table;
 }
 
-Json jsonOf(const std::vector<StudyPoint>& points) {
+Json jsonOf(const std::vector<StudyPoint>& points, const std::string& cost) {
   Json json = Json::array();
   for (const StudyPoint& point : points)
     json.push_back({{"way", point.way},
                     {"point", point.point},
                     {"runs", point.runs},
-                    {"wall_seconds", point.seconds},
+                    {cost, point.seconds},
                     {"error", point.error},
                     {"lowest", point.lowest},
                     {"highest", point.highest},
                     {"on_front", point.onFront}});
   return json;
 }
+
+/// Mean costs over the size, a curve for each series. @param rows  in the order of the cases, null if there is none
+std::vector<CostCurve> costCurves(const Study& study, const std::vector<Json>& rows) {
+  std::map<std::string, std::map<double, std::vector<double>>> costs;
+  std::vector<std::string> order;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const StudyCase& one = study.cases[k];
+    if (!one.size || rows[k].is_null() || !finished(rows[k]) || rows[k].value("prepares", false)) continue;
+    if (!costs.contains(one.series)) order.push_back(one.series);
+    costs[one.series][*one.size].push_back(numberIn(rows[k], study.cost.figure));
+  }
+  std::vector<CostCurve> curves;
+  for (const std::string& series : order) {
+    curves.push_back({series, {}, {}});
+    for (const auto& [size, seconds] : costs[series]) {
+      curves.back().size.push_back(size);
+      curves.back().seconds.push_back(std::accumulate(seconds.begin(), seconds.end(), 0.0) /
+                                      static_cast<double>(seconds.size()));
+    }
+  }
+  return curves;
+}
+
+std::string scalingName(const Study& study) { return study.name + "_scaling"; }
 
 /// The runs of a study as they come in.
 class Conduct {
@@ -263,8 +289,8 @@ private:
     write(rows);
   }
 
-  static void mark(std::vector<Json>& rows, const Study::Front& front) {
-    const std::vector<StudyPoint> points = pointsOf(rows, front.error);
+  void mark(std::vector<Json>& rows, const Study::Front& front) const {
+    const std::vector<StudyPoint> points = pointsOf(rows, front.error, study_.cost.figure);
     for (Json& row : rows) {
       const Json settings = row["settings"];
       row.erase("settings");  // stay last
@@ -278,7 +304,7 @@ private:
 
   void print(const Json& row) const {
     log_ << format("%-56s %-10s", row["label"].get<std::string>().c_str(), row["outcome"].get<std::string>().c_str());
-    if (row["outcome"] != "refused") log_ << format(" %8.3f s", numberIn(row, "wall_seconds"));
+    if (row["outcome"] != "refused") log_ << format(" %8.3f s", numberIn(row, study_.cost.figure));
     for (const std::string& key : study_.shown)
       if (std::isfinite(numberIn(row, key))) log_ << "  " << key << format(" %.3g", numberIn(row, key));
     log_ << "  " << row["message"].get<std::string>() << std::endl;
@@ -291,7 +317,7 @@ private:
       const std::string why = textOf(row["message"]);
       std::vector<std::string> cells{textOf(row["label"]), textOf(row["outcome"]) + (why.empty() ? "" : ": " + why)};
       const auto add = [&](double value) { cells.push_back(std::isfinite(value) ? format("%.4g", value) : ""); };
-      add(numberIn(row, "wall_seconds"));
+      add(numberIn(row, study_.cost.figure));
       for (const std::string& key : study_.shown) add(numberIn(row, key));
       for (const std::string& key : marks()) cells.push_back(row.value(key, false) ? "yes" : "");
       table.rows.push_back(std::move(cells));
@@ -314,18 +340,28 @@ private:
     Page page{study_.name == "study" ? "Study" : "Study " + study_.name, {{"Runs", {table(rows)}}}};
     if (!study_.fronts.empty()) {
       const Study::Front& front = study_.fronts.front();
-      const std::vector<StudyPoint> points = pointsOf(rows, front.error);
+      const std::vector<StudyPoint> points = pointsOf(rows, front.error, study_.cost.figure);
       if (hasWays(points) || hasRepeats(points)) {
-        json["points"] = jsonOf(points);
+        json["points"] = jsonOf(points, study_.cost.figure);
         page.sections.push_back({"Points", {tableOf(points, front)}});
       }
-      page.sections.push_back({"Error against run time", {frontFigure(points, front.error, study_.name, whole_)}});
+      page.sections.push_back({"Error against " + study_.cost.name, {frontFigure(points, study_, whole_)}});
       io::writeFileAtomically(file(".svg"),
                               "<!-- " + provenance.front().second + " -->\n" + svgFileOf(*figuresOf(page).front()));
     }
+    if (!study_.size.empty()) addScaling(page);
     json["runs"] = rows;
     io::writeFileAtomically(file(".json"), json.dump(2) + "\n");
     io::writeFileAtomically(file(".md"), "<!-- " + provenance.front().second + " -->\n\n" + markdownOf(page, ""));
+  }
+
+  void addScaling(Page& page) const {
+    const std::vector<CostCurve> curves = costCurves(study_, rows_);
+    const std::string name = scalingName(study_);
+    const Figure figure = scalingFigure(curves, name, study_.size, study_.cost.name);
+    page.sections.push_back({"Cost over the size", {figure, breakEvens(curves, study_.size)}});
+    io::writeFileAtomically(study_.folder / (name + ".svg"),
+                            "<!-- " + io::provenance().front().second + " -->\n" + svgFileOf(figure));
   }
 
   const Study& study_;
@@ -339,7 +375,7 @@ private:
 
 }  // namespace
 
-std::vector<StudyPoint> pointsOf(const std::vector<Json>& rows, const std::string& error) {
+std::vector<StudyPoint> pointsOf(const std::vector<Json>& rows, const std::string& error, const std::string& cost) {
   std::vector<StudyPoint> points;
   for (const Json& row : rows) {
     if (!hasError(row, error)) continue;
@@ -350,7 +386,7 @@ std::vector<StudyPoint> pointsOf(const std::vector<Json>& rows, const std::strin
     point.lowest = point.runs == 0 ? value : std::min(point.lowest, value);
     point.highest = std::max(point.highest, value);
     ++point.runs;
-    point.seconds += (numberIn(row, "wall_seconds") - point.seconds) / point.runs;
+    point.seconds += (numberIn(row, cost) - point.seconds) / point.runs;
     point.error += (value - point.error) / point.runs;
   }
   const auto on = onFront(
@@ -363,6 +399,7 @@ std::vector<StudyPoint> pointsOf(const std::vector<Json>& rows, const std::strin
 std::vector<std::string> filesOf(const Study& study) {
   std::vector<std::string> files{study.name + ".csv", study.name + ".json", study.name + ".md"};
   if (!study.fronts.empty()) files.push_back(study.name + ".svg");
+  if (!study.size.empty()) files.push_back(scalingName(study) + ".svg");
   return files;
 }
 

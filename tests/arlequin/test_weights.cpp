@@ -76,6 +76,33 @@ TEST(Weights, BordersThatAreMissingOrMeetAreRefused) {
                InputError);
 }
 
+const geometry::Box inner{{0, 0, 0}, {2, 2, 2}};
+
+TEST(Weights, BetweenBoxesTheyGoStraightAcrossEverySide) {
+  const geometry::Box outer{{-1, -2, -4}, {4, 3, 2.5}};
+  const std::vector<Vec3> points{{-0.5, 1, 1}, {1, -0.5, 1}, {1, 1, -1},    {3, 1, 1}, {1, 2.75, 1},
+                                 {1, 1, 2.25}, {-1, 1, 1},   {-0.5, -2, 1}, {0, 0, 0}, {1, 1, 5}};
+  const std::vector<double> s = boxCoordinate(points, inner, outer);
+  const std::vector<double> expected{0.5, 0.25, 0.25, 0.5, 0.75, 0.5, 1.0, 1.0, 0.0, 6.0};
+  for (std::size_t k = 0; k < points.size(); ++k) EXPECT_NEAR(s[k], expected[k], 1e-15) << k;
+  EXPECT_LT(boxCoordinate(std::vector<Vec3>{{1, 1, 1}}, inner, outer)[0], 0.0);
+}
+
+TEST(Weights, BoxesOpenOnAllSidesButOneAreTwoPlanes) {
+  const geometry::Box around{{0, 0, -1}, {2, 2, 2}};
+  for (double z = -1.5; z < 2.0; z += 0.25)
+    EXPECT_NEAR(boxCoordinate(std::vector<Vec3>{{0.3, 2.0, z}}, inner, around)[0], -z, 1e-15);
+}
+
+TEST(Weights, BoxesThatDoNotContainEachOtherAreRefused) {
+  const std::vector<Vec3> point{{1, 1, 1}}, outside{{1, 1, 2.1}};
+  EXPECT_THROW(boxCoordinate(point, inner, inner), InputError);
+  EXPECT_THROW(boxCoordinate(point, inner, {{-1, -1, 0.5}, {3, 3, 3}}), InputError);
+  EXPECT_THROW(boxCoordinate(point, inner, {{-1, -1, std::nan("")}, {3, 3, 3}}), InputError);
+  EXPECT_THROW(boxCoordinate(outside, inner, {{-1, -1, -1}, {3, 3, 2}}), InputError);  // beyond an open side
+  EXPECT_NO_THROW(boxCoordinate(outside, inner, {{-1, -1, -1}, {3, 3, 3}}));
+}
+
 TEST(Weights, ModelsShareEveryPointExactly) {
   const Still s = makeL(2);
   const std::vector<double> solid = solidWeights(s.weight);

@@ -373,7 +373,7 @@ TEST(StudyVerb, WaysBeginWithWhatOthersPrepared) {
   write(R"(, "over": [{"key": "share", "values": "0.1, 0.2"}])");
   const Outcome bad = runProgram({"study", plan, "--out", bounce.out + "3"});
   EXPECT_EQ(bad.code, 2);
-  EXPECT_NE(bad.err.find("prepares has axes"), std::string::npos) << bad.err;
+  EXPECT_NE(bad.err.find("prepares {start} for \"rest: share=0.05, speed=1\""), std::string::npos) << bad.err;
   write("");
   std::string text = readText(plan);
   text.replace(text.find("{start}"), 7, "{strat}");
@@ -381,6 +381,62 @@ TEST(StudyVerb, WaysBeginWithWhatOthersPrepared) {
   const Outcome unknown = runProgram({"study", plan, "--out", bounce.out + "4"});
   EXPECT_EQ(unknown.code, 2);
   EXPECT_NE(unknown.err.find("prepares {strat}"), std::string::npos) << unknown.err;
+}
+
+/// A packing, a reference and what it is compared with at every place of an axis; what they cost over it.
+TEST(StudyVerb, WaysMeetWhereTheyHaveTheSameValuesOfAnAxis) {
+  const Bounce bounce;
+  const std::string plan = (bounce.folder / "plan.json").string();
+  const auto write = [&](const std::string& against, const std::string& values = "0.05, 0.1") {
+    writeText(plan, R"({"ways": [
+      {"name": "start", "scene": "bounce.json", "prepares": true, "set": [{"key": "output.checkpoints", "value": "1"}],
+       "over": [{"key": "share", "values": "0.05, 0.1"}]},
+      {"name": "fine", "scene": "bounce.json", "set": [{"key": "title", "value": "from {start}"}],
+       "over": [{"key": "share", "values": "0.05, 0.1"}, {"key": "steps.safety", "values": "0.01, 0.02"}]},
+      {"name": "coarse", "scene": "bounce.json", "over": [{"key": "share", "values": ")" +
+                        values + R"("}]}],
+      "repeat": {"key": "speed", "values": "1, 2"}, "error": "particles_kinetic_J", "size": "share",
+      "against": {"way": "fine", "norm": "relative")" +
+                        against + "}}");
+  };
+  write(R"(, "point": "steps.safety=0.01")");
+  const Outcome outcome = runProgram({"study", plan, "--out", bounce.out});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const Json study = Json::parse(readText(bounce.folder / "out/study.json"));
+  const Json& runs = study["runs"];
+  ASSERT_EQ(runs.size(), 16u);
+  const auto folder = [](std::size_t run) { return std::string(run < 9 ? "00" : "0") + std::to_string(run + 1); };
+  const auto curveIn = [&](std::size_t run) {
+    const io::TimeSeries series = io::readCsv(bounce.folder / "out" / folder(run) / "series.csv");
+    const auto x = series.column("time_s"), y = series.column("particles_kinetic_J");
+    return Curve{"", {x.begin(), x.end()}, {y.begin(), y.end()}};
+  };
+  for (std::size_t share = 0; share < 2; ++share)
+    for (std::size_t speed = 0; speed < 2; ++speed) {
+      const std::size_t fine = 4 + 4 * share + speed, other = fine + 2, coarse = 12 + 2 * share + speed;
+      EXPECT_FALSE(runs[fine].contains("error"));
+      for (const std::size_t k : {other, coarse})
+        EXPECT_EQ(runs[k]["error"], distanceFrom(curveIn(fine), curveIn(k), Norm::relative).value) << k;
+      const std::string scene = readText(bounce.folder / "out" / folder(fine) / "scene.json");
+      EXPECT_NE(scene.find("out/" + folder(2 * share + speed)), std::string::npos) << fine;
+    }
+  EXPECT_FALSE(study.contains("scatter"));  // of several points
+  const std::string figure = readText(bounce.folder / "out/study_scaling.svg");
+  for (const char* const name : {">fine, steps.safety=0.01<", ">fine, steps.safety=0.02<", ">coarse<"})
+    EXPECT_NE(figure.find(name), std::string::npos) << name;
+  EXPECT_EQ(figure.find(">start<"), std::string::npos);
+  EXPECT_NE(readText(bounce.folder / "out/study.md").find("from share"), std::string::npos);
+  const auto refused = [&](const std::string& part) {
+    const Outcome bad = runProgram({"study", plan, "--out", bounce.out + "2"});
+    EXPECT_EQ(bad.code, 2);
+    EXPECT_NE(bad.err.find(part), std::string::npos) << bad.err;
+  };
+  write("");
+  refused("several points beside \"coarse: share=0.05, speed=1\"");
+  write(R"(, "point": "steps.safety=0.01")", "0.05, 0.2");
+  refused("no run of the way stands beside \"coarse: share=0.2, speed=1\"");
+  write(R"(, "point": "steps.safety=0.01")", "0.05, 10 mm");
+  refused("no number above 0");
 }
 
 TEST(StudyVerb, WhatCannotBeComparedIsToldInItsRow) {

@@ -257,7 +257,7 @@ TEST(SceneParts, WhatCannotBeIsRefusedWithItsPlace) {
   expect(block + R"("couplings": [{"type": "surface", "solid": "c"}],)", "write \"b\"", "couplings.0");
   expect(block + R"("couplings": [{"type": "surface", "solid": "b", "on": "w"}],)", "\"w\"", "couplings.0");
   expect(block + R"("couplings": [{"type": "overlap", "solid": "b", "solid_border": 1, "particle_border": 1}],)",
-         "coincide", "s.json");
+         "coincide", "couplings.0");
   expect(block + R"("couplings": [{"type": "overlap", "solid": "b", "solid_border": 1, "particle_border": 0}],)",
          "overlap", "couplings.0");
   expect(R"("walls": [{"shape": "plane", "point": [0, 0, 0], "normal": [0, 0, 0]}],)", "normal", "walls.0");

@@ -111,4 +111,57 @@ std::vector<double> distanceCoordinate(std::span<const Vec3> points, std::span<c
   return s;
 }
 
+namespace {
+
+/// A side of both boxes; outwards is the direction of sign.
+struct Side {
+  int axis;
+  double sign, inner, outer;  // m
+  bool isOpen() const { return inner == outer; }
+  double coordinate(const Vec3& x) const { return (x[axis] - inner) / (outer - inner); }
+};
+
+std::vector<Side> sidesOf(const geometry::Box& solidBorder, const geometry::Box& particleBorder) {
+  std::vector<Side> sides;
+  for (int axis = 0; axis < 3; ++axis) {
+    sides.push_back({axis, -1.0, solidBorder.lower[axis], particleBorder.lower[axis]});
+    sides.push_back({axis, 1.0, solidBorder.upper[axis], particleBorder.upper[axis]});
+  }
+  for (const Side& side : sides)
+    if (!(side.sign * (side.outer - side.inner) >= 0.0))
+      throw InputError(
+          std::string("along ") + "xyz"[side.axis] + " the box of the solid reaches to " + formatNumber(side.inner) +
+              " m and that of the particles to " + formatNumber(side.outer) + " m",
+          "box of an overlap", "the box at which the particles end lies around that at which the solid does");
+  if (std::ranges::all_of(sides, &Side::isOpen))
+    throw InputError("the two boxes of an overlap coincide", "", "move them apart");
+  return sides;
+}
+
+void requireWithin(std::span<const Vec3> points, const Side& side) {
+  const double margin = 1e-9 * std::max(1.0, std::abs(side.inner));
+  for (const Vec3& x : points)
+    if (side.sign * (x[side.axis] - side.inner) > margin)
+      throw InputError(std::string("both boxes of the overlap end at ") + "xyz"[side.axis] + " = " +
+                           formatNumber(side.inner) + " m, and the solid goes on to " + formatNumber(x[side.axis]) +
+                           " m",
+                       "", "let both reach beyond the solid there, or move them apart");
+}
+
+}  // namespace
+
+std::vector<double> boxCoordinate(std::span<const Vec3> points, const geometry::Box& solidBorder,
+                                  const geometry::Box& particleBorder) {
+  std::vector<Side> sides = sidesOf(solidBorder, particleBorder);
+  for (const Side& side : sides)
+    if (side.isOpen()) requireWithin(points, side);
+  std::erase_if(sides, [](const Side& side) { return side.isOpen(); });
+  std::vector<double> s;
+  for (const Vec3& x : points) {
+    s.push_back(-std::numeric_limits<double>::infinity());
+    for (const Side& side : sides) s.back() = std::max(s.back(), side.coordinate(x));
+  }
+  return s;
+}
+
 }  // namespace dovetail::arlequin

@@ -1,25 +1,17 @@
 #include <algorithm>
-#include <limits>
 
 #include "dovetail/fem/mesh/cell_topology.hpp"
+#include "face_key.hpp"
 
 namespace dovetail::fem {
 
 namespace {
 
-/// A face of an element by its sorted corners, which name it whatever the order and side it is seen from.
+/// A face of an element.
 struct Side {
-  std::array<int, 4> key;
+  FaceKey key;
   std::size_t number;  // counts the faces of all elements
 };
-
-std::array<int, 4> keyOf(const Face& face) {
-  std::array<int, 4> key{};
-  key.fill(std::numeric_limits<int>::max());
-  std::copy_n(face.node.begin(), cornersOf(face.shape), key.begin());
-  std::sort(key.begin(), key.end());
-  return key;
-}
 
 }  // namespace
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/core/finite.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
+#include "face_key.hpp"
 
 namespace dovetail::fem {
 
@@ -69,12 +69,6 @@ void addSets(SolidMesh& mesh, const SolidMesh& part, std::span<const int> number
     for (const int e : elements) mesh.elementSets[name].push_back(firstElement + e);
 }
 
-std::array<int, 9> sortedNodes(const Face& face) {
-  std::array<int, 9> nodes = face.node;
-  std::sort(nodes.begin(), nodes.end());
-  return nodes;
-}
-
 }  // namespace
 
 SolidMesh joinMeshes(std::span<const SolidMesh> parts, double tolerance) {
@@ -97,10 +91,9 @@ SolidMesh joinMeshes(std::span<const SolidMesh> parts, double tolerance) {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
-  std::set<std::array<int, 9>> outside;
-  for (const Face& face : boundaryFaces(mesh)) outside.insert(sortedNodes(face));
+  const FaceKeys outside = keysOf(boundaryFaces(mesh));
   for (auto& [name, faces] : mesh.faceSets)
-    std::erase_if(faces, [&](const Face& face) { return !outside.contains(sortedNodes(face)); });
+    std::erase_if(faces, [&](const Face& face) { return !outside.contains(keyOf(face)); });
   return mesh;
 }
 

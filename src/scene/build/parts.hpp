@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -164,6 +165,11 @@ inline bool yields(const SolidMaterial& material) {
 const SolidMaterial& materialOf(const Solid& solid, const std::string& term);
 /// Which of them each element has. @throws InputError for a set that does not exist, or an element in two regions
 std::vector<std::size_t> materialByElement(const Solid& solid, const fem::SolidMesh& mesh);
+/// @throws InputError unless there are two borders, of one kind, apart from each other
+void requireBorders(const Overlap& overlap);
+/// 0 on the border of the solid and 1 on that of the grains, linear between; less than 0 where grains are alone, more
+/// than 1 where the solid is. @throws InputError as arlequin::boxCoordinate
+std::vector<double> overlapPlaces(const Overlap& overlap, std::span<const Vec3> points);
 /// w of the grains per node of the mesh. @throws InputError for borders between which no node lies
 std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh);
 

@@ -10,6 +10,7 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/materials.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/fem/terms/gradient_energy.hpp"
 #include "dovetail/fem/terms/loads.hpp"
 #include "dovetail/hierarchical/farm.hpp"
@@ -27,7 +28,8 @@ fem::SolidMesh meshOf(const BoxMesh& box) {
   requireMemory(1.0 * box.cells[0] * box.cells[1] * box.cells[2], "cells", BytesPer::cell, "take fewer");
   const auto shape = std::find_if(fem::allCellShapes.begin(), fem::allCellShapes.end(),
                                   [&](fem::ElementShape one) { return box.shape == fem::name(one); });
-  return fem::boxOf(*shape, box.cells, box.box.lower, box.box.upper);
+  fem::SolidMesh mesh = fem::boxOf(*shape, box.cells, box.box.lower, box.box.upper);
+  return box.hole ? fem::withHole(mesh, fem::inBox(box.hole->lower, box.hole->upper)) : mesh;
 }
 fem::SolidMesh meshOf(const MeshFile& from, std::vector<std::string>& notes) {
   auto [mesh, told] = readMesh(from.file);
@@ -70,6 +72,7 @@ const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
     if (found)
       throw InputError("\"" + solid.name + "\" has two overlaps", coupling.where, "give every solid one at most");
     found = overlap;
+    atPlace(coupling.where, [&] { requireBorders(*overlap); });
   }
   return found;
 }

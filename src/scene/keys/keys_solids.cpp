@@ -14,6 +14,7 @@ void describe(Fields& f, BoxMesh& v) {
          "extent; the mesh has the sets x-, x+, y-, y+, z-, z+ and skin, in plane strain those along x and y and skin; "
          "the extent along z is then its thickness"},
         v.box);
+  f.box({"hole", "cells whose centres lie in it are left out; the faces that this bares are the set hole"}, v.hole);
 }
 void describe(Fields& f, MeshFile& v) {
   f.file(
@@ -296,10 +297,17 @@ void describe(Fields& f, Overlap& v) {
   static constexpr const char* rows[] = {"per-node", "per-element"};
   static constexpr const char* reaches[] = {"overlap", "outside"};
   static constexpr const char* automatic[] = {"auto"};
-  f.choice({"axis", "along which the weights change from one model to the other"}, v.axis, axisNames);
-  f.number({"solid_border", "coordinate at which the solid ends, within the grains"}, v.solidBorder, any(unit::length));
-  f.number({"particle_border", "coordinate at which the grains end, within the solid"}, v.particleBorder,
+  f.choice({"axis", "across the planes between which the weights change from one model to the other"}, v.axis,
+           axisNames);
+  f.number({"solid_border", "coordinate of the plane at which the solid ends, within the grains; both borders or both boxes are needed"}, v.solidBorder,
            any(unit::length));
+  f.number({"particle_border", "coordinate of the plane at which the grains end, within the solid"}, v.particleBorder,
+           any(unit::length));
+  f.box({"solid_box", "in place of the planes: where the solid ends, around grains alone"}, v.solidBox);
+  f.box(
+      {"particle_box",
+       "around solid_box: where the grains end, within the solid; sides of the same place, beyond the solid, are open"},
+      v.particleBox);
   f.choice({"profile", "of the weights between the borders"}, v.profile, profiles);
   f.number(
       {"floor", "least weight of either model at the borders; a larger one allows larger steps of the grains there"},

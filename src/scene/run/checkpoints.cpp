@@ -128,24 +128,25 @@ std::uint64_t fingerprintOf(std::span<const Vec3> places) {
   return hash;
 }
 
-void writeTimes(const fs::path& folder, const io::KeyValues& provenance, const std::vector<double>& seconds) {
-  io::TimeSeries table({"stage", "wall_s"});
-  for (std::size_t k = 0; k < seconds.size(); ++k) table.append({static_cast<double>(k + 1), seconds[k]});
+void writeTimes(const fs::path& folder, const io::KeyValues& provenance, const std::vector<TimeTaken>& taken) {
+  io::TimeSeries table({"stage", "wall_s", "processor_s"});
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    table.append({static_cast<double>(k + 1), taken[k].wall, taken[k].processor});
   io::writeCsv(folder / timesFile, table, provenance);
 }
 
-std::vector<double> readTimes(const fs::path& folder, std::size_t stages) {
-  std::vector<double> seconds(stages, 0.0);
+std::vector<TimeTaken> readTimes(const fs::path& folder, std::size_t stages) {
+  std::vector<TimeTaken> taken(stages);
   std::error_code error;
-  if (!fs::exists(folder / timesFile, error)) return seconds;
+  if (!fs::exists(folder / timesFile, error)) return taken;
   try {
     const io::TimeSeries table = io::readCsv(folder / timesFile);
-    const auto column = table.column("wall_s");
-    for (std::size_t k = 0; k < std::min(stages, column.size()); ++k)
-      if (column[k] >= 0.0) seconds[k] = column[k];
+    const auto wall = table.column("wall_s"), processor = table.column("processor_s");
+    for (std::size_t k = 0; k < std::min(stages, wall.size()); ++k)
+      if (wall[k] >= 0.0 && processor[k] >= 0.0) taken[k] = {wall[k], processor[k]};
   } catch (const InputError&) {  // a run goes on without what only tells times
   }
-  return seconds;
+  return taken;
 }
 
 std::string hashOf(const std::string& text) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "build/changes.hpp"
+#include "dovetail/core/stopwatch.hpp"
 #include "dovetail/coupling/rest.hpp"
 #include "dovetail/coupling/run.hpp"
 #include "dovetail/io/provenance.hpp"
@@ -81,11 +82,11 @@ std::string identityOf(const Scene& scene);
 /// Of the places of nodes.
 std::uint64_t fingerprintOf(std::span<const Vec3> places);
 
-/// Seconds of wall-clock time that each stage has taken in all programs that worked on it, beside the state: it has the
+/// The time that each stage has taken in all programs that worked on it, beside the state: it has the
 /// same bytes on every machine, times.csv has not.
 void writeTimes(const std::filesystem::path& folder, const io::KeyValues& provenance,
-                const std::vector<double>& seconds);
+                const std::vector<TimeTaken>& taken);
 /// @return a number per stage, 0 for what no file tells
-std::vector<double> readTimes(const std::filesystem::path& folder, std::size_t stages);
+std::vector<TimeTaken> readTimes(const std::filesystem::path& folder, std::size_t stages);
 
 }  // namespace dovetail::scene

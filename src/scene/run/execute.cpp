@@ -14,6 +14,7 @@
 #include "dovetail/core/finite.hpp"
 #include "dovetail/core/parallel.hpp"
 #include "dovetail/core/progress.hpp"
+#include "dovetail/core/stopwatch.hpp"
 #include "dovetail/core/team.hpp"
 #include "dovetail/io/interruption.hpp"
 #include "dovetail/io/output_folder.hpp"
@@ -96,7 +97,7 @@ public:
 
 private:
   bool finishStages() {
-    counted_ = Clock::now();
+    watch_ = Stopwatch();
     for (; progress_.stage < scene_.stages.size(); ++progress_.stage, progress_.macroStep = 0) {
       begin();
       const Stage& stage = scene_.stages[progress_.stage];
@@ -132,11 +133,11 @@ private:
     return names[stage.kind.index()];
   }
   std::string lineOf(std::size_t stage) const {
-    return "stage " + std::to_string(stage + 1) + ": " + formatNumber(rounded(seconds_[stage])) + " s";
+    return "stage " + std::to_string(stage + 1) + ": " + formatNumber(rounded(taken_[stage].wall)) + " s";
   }
   void countTime() {
-    if (progress_.stage < seconds_.size()) seconds_[progress_.stage] += since(counted_);
-    counted_ = Clock::now();
+    const TimeTaken taken = watch_.lap();
+    if (progress_.stage < taken_.size()) taken_[progress_.stage] += taken;
   }
   void remark(const std::string& line, bool warns) {
     progress_.remarks.push_back({line, warns});
@@ -340,7 +341,7 @@ private:
   }
   void checkpoint() {
     countTime();
-    writeTimes(settings_.folder, provenance_, seconds_);
+    writeTimes(settings_.folder, provenance_, taken_);
     writeCheckpoint(settings_.folder, identity_, progress_, *built_.run);
     keepWords(built_.run->time());
   }
@@ -361,7 +362,7 @@ private:
     progress_ = last.progress;
     adopt(last, identity_, built_, scene_);
     keepWords(last.time);
-    seconds_ = readTimes(settings_.folder, scene_.stages.size());
+    taken_ = readTimes(settings_.folder, scene_.stages.size());
     if (settings_.until) {
       lengthen(scene_, plan_, progress_, *built_.run, *settings_.until);
       plan_ = planOf(built_, scene_);
@@ -392,7 +393,10 @@ private:
         notes.warnings.push_back(text);
       }
     for (std::size_t k = 0; k < scene_.stages.size(); ++k) {
-      notes.stages.push_back({k + 1, nameOf(scene_.stages[k]), rounded(seconds_[k]), progress_.begun[k].time});
+      notes.stages.push_back({k + 1,
+                              nameOf(scene_.stages[k]),
+                              {rounded(taken_[k].wall), rounded(taken_[k].processor)},
+                              progress_.begun[k].time});
       notes.lines.push_back(lineOf(k));
     }
     log_ << writeSummary(settings_.folder, provenance_, scene_, built_, notes, series_ ? &series_->table() : nullptr)
@@ -411,8 +415,8 @@ private:
   std::unique_ptr<Series> series_;
   std::unique_ptr<Frames> frames_;
   Progress progress_;
-  std::vector<double> seconds_ = std::vector<double>(scene_.stages.size(), 0.0);  ///< of each stage, in all programs
-  Clock::time_point counted_;                                                     ///< until then
+  std::vector<TimeTaken> taken_ = std::vector<TimeTaken>(scene_.stages.size());  ///< by each stage, in all programs
+  Stopwatch watch_;                                                              ///< of what is not counted yet
   bool toldOfRoom_ = false;
   std::optional<double> saved_;  ///< time of the last checkpoint, s
 };

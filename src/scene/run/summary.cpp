@@ -81,8 +81,11 @@ Json momentumOf(const coupling::Totals& totals) {
 Json timesOf(const RunNotes& notes, const Profile& profile) {
   Json times{{"stages", Json::array()}};
   for (const RunNotes::Stage& stage : notes.stages)
-    times["stages"].push_back(
-        {{"stage", stage.number}, {"do", stage.what}, {"begins_s", stage.begins}, {"seconds", stage.seconds}});
+    times["stages"].push_back({{"stage", stage.number},
+                               {"do", stage.what},
+                               {"begins_s", stage.begins},
+                               {"seconds", stage.taken.wall},
+                               {"processor_seconds", stage.taken.processor}});
   times.update(report::timesOf(profile));
   return times;
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "dovetail/core/stopwatch.hpp"
 #include "dovetail/io/provenance.hpp"
 #include "dovetail/io/time_series.hpp"
 #include "dovetail/scene/build.hpp"
@@ -16,8 +17,8 @@ struct RunNotes {
   struct Stage {
     std::size_t number;  ///< from 1
     const char* what;
-    double seconds;  ///< in all programs that worked on it
-    double begins;   ///< s, simulated
+    TimeTaken taken;  ///< in all programs that worked on it
+    double begins;    ///< s, simulated
   };
   std::vector<Stage> stages;
   std::vector<std::string> lines, warnings;

@@ -260,10 +260,34 @@ void lookAtGaps(const Built& built, const Scene& scene, Lines& lines) {
                       rounded(0.1 * largest) + " m to bond neighbours.");
 }
 
+/// A solid as a whole; with a hole, in which another may move, its elements.
+std::vector<Extent> extentsOf(const Solid& solid, const fem::SolidMesh& mesh) {
+  const auto* const box = std::get_if<BoxMesh>(&solid.mesh);
+  std::vector<Extent> extents;
+  if (!box || !box->hole) {
+    extents.emplace_back().add(mesh.X);
+    return extents;
+  }
+  for (const fem::ElementGroup& group : mesh.groups)
+    for (std::size_t e = 0, n = static_cast<std::size_t>(fem::nodesOf(group.shape)); e < group.size(); ++e) {
+      std::vector<Vec3> nodes;
+      for (std::size_t a = 0; a < n; ++a) nodes.push_back(mesh.X[static_cast<std::size_t>(group.node[n * e + a])]);
+      extents.emplace_back().add(nodes);
+    }
+  return extents;
+}
+
+bool comesTo(const std::vector<Extent>& moving, const Vec3& velocity, const std::vector<Extent>& still, double time) {
+  return std::ranges::any_of(moving, [&](const Extent& a) {
+    return std::ranges::any_of(still, [&](const Extent& b) { return comesTo(a, velocity, b, time); });
+  });
+}
+
 /// Extents say where they meet, and overlaps at the start are told elsewhere.
 void lookAtMeetings(const Built& built, const Scene& scene, Lines& lines) {
-  std::vector<Extent> bodies(scene.solids.size());
-  for (std::size_t s = 0; s < bodies.size(); ++s) bodies[s].add(built.meshes[s].X);
+  std::vector<std::vector<Extent>> bodies;
+  for (std::size_t s = 0; s < scene.solids.size(); ++s)
+    bodies.push_back(extentsOf(scene.solids[s], built.meshes[s]));
   for (std::size_t j = 0; j < bodies.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
       const Vec3 velocity = scene.solids[j].velocity - scene.solids[i].velocity;

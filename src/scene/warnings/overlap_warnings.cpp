@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "build/parts.hpp"
 #include "dovetail/arlequin/arlequin_coupling.hpp"
+#include "dovetail/arlequin/cells.hpp"
 #include "dovetail/arlequin/constraint.hpp"
 #include "dovetail/arlequin/coupling_options.hpp"
 #include "dovetail/core/finite.hpp"
@@ -28,48 +30,70 @@ double bulkModulusOf(const SolidMaterial& material) {
 /// What lies between the borders of an overlap.
 struct Shared {
   double mass = 0.0, volumeOfGrains = 0.0, diameter = 0.0;  ///< kg, m³, m (mean)
-  double volume = 0.0, elementSize = 0.0;                   ///< m³; m, mean along the axis
+  double volume = 0.0, elementSize = 0.0;                   ///< m³; m, mean across the borders
   std::size_t grains = 0, elements = 0;
   std::size_t first = 0;  ///< number of one of the elements
 };
 
-void addElements(Shared& shared, const fem::SolidMesh& mesh, int axis, double lower, double upper) {
+/// Between the planes, or the boxes where they are nearest; m.
+double thicknessOf(const Overlap& overlap) {
+  if (!overlap.solidBox) return std::abs(*overlap.solidBorder - *overlap.particleBorder);
+  double least = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {overlap.solidBox->lower[axis] - overlap.particleBox->lower[axis],
+                              overlap.particleBox->upper[axis] - overlap.solidBox->upper[axis]})
+      if (side > 0.0) least = std::min(least, side);
+  return least;
+}
+
+/// @param places  of the nodes, as overlapPlaces
+void addElements(Shared& shared, const fem::SolidMesh& mesh, std::span<const double> places, double thickness) {
   const fem::MeshQuality quality = fem::measureQuality(mesh, 0);
-  const double margin = 1e-6 * (upper - lower);
+  constexpr double margin = 1e-6;
   std::size_t number = 0;
   for (const fem::ElementGroup& group : mesh.groups) {
     const auto corners = static_cast<std::size_t>(fem::nodesOf(group.shape));
     for (std::size_t e = 0; e < group.size(); ++e, ++number) {
       double least = std::numeric_limits<double>::infinity(), most = -least;
       for (std::size_t a = 0; a < corners; ++a) {
-        const double place = mesh.X[static_cast<std::size_t>(group.node[corners * e + a])][axis];
+        const double place = places[static_cast<std::size_t>(group.node[corners * e + a])];
         least = std::min(least, place), most = std::max(most, place);
       }
-      if (least < lower - margin || most > upper + margin) continue;
+      if (least < -margin || most > 1.0 + margin) continue;
       if (shared.elements++ == 0) shared.first = number;
       shared.volume += quality.element[number].volume;
-      shared.elementSize += most - least;
+      shared.elementSize += thickness * (most - least);
     }
   }
   shared.elementSize /= static_cast<double>(std::max<std::size_t>(1, shared.elements));
 }
 
+double valueAt(const fem::SolidMesh& mesh, const fem::CellPlace& place, std::span<const double> nodal) {
+  const arlequin::Cell cell = arlequin::cellOf(mesh, place.element);
+  double sum = 0.0;
+  for (std::size_t a = 0; a < cell.node.size(); ++a)
+    sum += place.shape[a] * nodal[static_cast<std::size_t>(cell.node[a])];
+  return sum;
+}
+
 Shared sharedPart(const Built& built, const arlequin::ArlequinCoupling& tie, const fem::SolidMesh& mesh,
                   const Overlap& overlap) {
-  const auto [lower, upper] = std::minmax(overlap.solidBorder, overlap.particleBorder);
   Shared shared;
   const dem::Particles& p = built.run->grains.particles;
-  for (const int number : tie.overlap().particle) {
-    const auto i = static_cast<std::size_t>(number);
-    const double r = p.radius[i], place = p.x[i][overlap.axis];
-    if (place < lower || place > upper) continue;
+  const std::vector<double> places = overlapPlaces(overlap, mesh.X);
+  for (std::size_t k = 0; k < tie.overlap().size(); ++k) {
+    const fem::CellPlace& host = tie.overlap().place[k];
+    const double place = host.element < 0 ? -1.0 : valueAt(mesh, host, places);
+    if (place < 0.0 || place > 1.0) continue;
+    const auto i = static_cast<std::size_t>(tie.overlap().particle[k]);
+    const double r = p.radius[i];
     ++shared.grains;
     shared.mass += p.mass[i];
     shared.volumeOfGrains += 4.0 / 3.0 * std::numbers::pi * r * r * r;
     shared.diameter += 2.0 * r;
   }
   shared.diameter /= static_cast<double>(std::max<std::size_t>(1, shared.grains));
-  addElements(shared, mesh, overlap.axis, lower, upper);
+  addElements(shared, mesh, places, thicknessOf(overlap));
   return shared;
 }
 
@@ -83,22 +107,26 @@ std::string rounded(double value) {
 namespace {
 
 void lookAtBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const std::string& name, Lines& lines) {
+  if (overlap.solidBox) return;
+  const double border = *overlap.solidBorder;
   const auto along = [&](const Vec3& X) { return X[overlap.axis]; };
   const auto [first, last] = std::ranges::minmax(mesh.X, {}, along);
   const double lower = first[overlap.axis], upper = last[overlap.axis], margin = 0.1 * (upper - lower);
-  if (overlap.solidBorder < lower - margin || overlap.solidBorder > upper + margin)
-    lines.push_back("solid_border of " + name + " is " + rounded(overlap.solidBorder) +
-                    " m, and the solid reaches from " + rounded(lower) + " to " + rounded(upper) + " m along " +
-                    "xyz"[overlap.axis] + ": give the coordinate at which the solid ends within the grains.");
+  if (border < lower - margin || border > upper + margin)
+    lines.push_back("solid_border of " + name + " is " + rounded(border) + " m, and the solid reaches from " +
+                    rounded(lower) + " to " + rounded(upper) + " m along " + "xyz"[overlap.axis] +
+                    ": give the coordinate at which the solid ends within the grains.");
 }
 
 /// The solid ends at its border.
 void lookBeyondBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const std::string& name, Lines& lines) {
-  const double side = overlap.solidBorder > overlap.particleBorder ? 1.0 : -1.0;
-  const double margin = 0.5 * std::abs(overlap.solidBorder - overlap.particleBorder);
-  const auto count = std::ranges::count_if(
-      mesh.X, [&](const Vec3& X) { return side * (X[overlap.axis] - overlap.solidBorder) > margin; });
-  if (count > 0)
+  const double margin = overlap.solidBox ? 0.1 : 0.5;  // of what both share
+  const auto count =
+      std::ranges::count_if(overlapPlaces(overlap, mesh.X), [&](double place) { return place < -margin; });
+  if (count > 0 && overlap.solidBox)
+    lines.push_back(std::to_string(count) + " nodes lie in solid_box of " + name +
+                    ", where the solid has no weight: give its mesh this box as \"hole\".");
+  else if (count > 0)
     lines.push_back(std::to_string(count) + " nodes lie beyond solid_border of " + name + " along " +
                     "xyz"[overlap.axis] + ", where the solid has no weight: swap the two borders, or check the axis.");
 }
@@ -129,7 +157,7 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
     return;
   }
   const SolidMaterial& material = *materialsOf(file)[materialByElement(file, built.meshes[solid])[shared.first]];
-  const double thickness = std::abs(overlap.solidBorder - overlap.particleBorder);
+  const double thickness = thicknessOf(overlap);
   if (thickness < 1.99 * shared.elementSize || thickness < 2.9 * shared.diameter)
     lines.push_back(name + " is " + rounded(thickness) + " m thick, with elements of " + rounded(shared.elementSize) +
                     " m and grains of " + rounded(shared.diameter) +

@@ -195,5 +195,46 @@ TEST(MeshShapes, BoxesOfSecondOrderAreThoseMadeAsSuch) {
   }
 }
 
+Place insideOf(Vec3 lower, Vec3 upper) { return inBox(lower, upper); }
+
+TEST(MeshShapes, HolesLeaveTheRestAndBareTheirFaces) {
+  for (const ElementShape shape : allCellShapes) {
+    const bool plane = dimensionOf(shape) == 2;
+    const SolidMesh box = boxOf(shape, layered(shape, {6, 4, 3}), {}, {3, 2, 1.5});
+    const double depth = plane ? 1.5 : 0.5;
+    const SolidMesh mesh = withHole(box, insideOf({0.9, 0.4, plane ? -1.0 : 0.4}, {2.1, 1.6, plane ? 1.0 : 1.1}));
+    expectSound(mesh, name(shape));
+    EXPECT_NEAR(volumeOf(mesh), 9.0 - depth, 1e-12) << name(shape);
+    const FaceIntegrals hole = integrateFaces(mesh, faceSet(mesh, "hole"));
+    EXPECT_NEAR(hole.volume, -depth, 1e-12) << name(shape);
+    EXPECT_NEAR(norm(hole.area), 0.0, 1e-12) << name(shape);
+    EXPECT_EQ(faceSet(mesh, "hole").size() + boundaryFaces(box).size(), faceSet(mesh, "skin").size()) << name(shape);
+    for (const char* const side : {"x-", "x+", "y-", "y+"})
+      EXPECT_EQ(faceSet(mesh, side).size(), faceSet(box, side).size()) << name(shape);
+    for (const int n : nodeSet(mesh, "hole"))
+      EXPECT_TRUE(inBox({1, 0.5, -9}, {2, 1.5, 9}, 1e-12)(mesh.X[static_cast<std::size_t>(n)])) << name(shape);
+  }
+}
+
+TEST(MeshShapes, NotchesTakeFacesOfTheirSidesAlong) {
+  const SolidMesh box = boxOf(ElementShape::hex8, {4, 1, 2}, {}, {4, 1, 2});
+  const SolidMesh notched = withHole(box, insideOf({1, 0, 1}, {3, 1, 9}));
+  expectSound(notched, "notch");
+  EXPECT_EQ(faceSet(notched, "z+").size(), 2u);
+  EXPECT_EQ(faceSet(notched, "hole").size(), 4u);
+  EXPECT_EQ(faceSet(notched, "y-").size(), 6u);
+  const SolidMesh step = withHole(box, insideOf({0, 0, 1}, {9, 1, 9}));
+  EXPECT_FALSE(step.faceSets.contains("z+"));
+  EXPECT_FALSE(step.nodeSets.contains("z+"));
+}
+
+TEST(MeshShapes, HolesOfNothingAndOfAllAreRefused) {
+  const SolidMesh box = boxOf(ElementShape::hex8, {3, 3, 3}, {}, {3, 3, 3});
+  EXPECT_THROW(withHole(box, insideOf({5, 5, 5}, {6, 6, 6})), InputError);
+  EXPECT_THROW(withHole(box, insideOf({-1, -1, -1}, {6, 6, 6})), InputError);
+  const SolidMesh once = withHole(box, insideOf({1, 1, 1}, {2, 2, 2}));
+  EXPECT_THROW(withHole(once, insideOf({0, 0, 0}, {1, 1, 1})), InputError);
+}
+
 }  // namespace
 }  // namespace dovetail::fem

@@ -11,6 +11,7 @@
 
 #include "dovetail/core/vec3.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
+#include "dovetail/geometry/box.hpp"
 
 namespace dovetail::arlequin {
 
@@ -55,6 +56,13 @@ std::vector<Triangle> triangles(std::span<const Vec3> X, std::span<const fem::Fa
 /// @throws InputError for an empty border, or a point that lies on both
 std::vector<double> distanceCoordinate(std::span<const Vec3> points, std::span<const Triangle> solidBorder,
                                        std::span<const Triangle> particleBorder);
+
+/// s between two nested boxes: the largest over the sides of (distance from the inner side) / (distance of the two),
+/// linear across each side; less than 0 within the inner box, more than 1 outside of the outer one. Sides that coincide
+/// are open, for boxes that reach beyond a face of the mesh.
+/// @throws InputError for an inner box that is not inside, boxes open on all sides, or a point beyond an open side
+std::vector<double> boxCoordinate(std::span<const Vec3> points, const geometry::Box& solidBorder,
+                                  const geometry::Box& particleBorder);
 
 /// s from Laplace's equation on the elements of the overlap: s = 0 on `solidBorder`, 1 on `particleBorder`, no flux
 /// elsewhere. Nodes without an element of the overlap get `beyondOverlap`. Solved on the corners of the cells; nodes

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@ struct Curve {
   bool line = true, marks = false;
   bool dashed = false;
   std::vector<std::array<double, 2>> ranges{};  ///< lowest and highest y at each point, drawn as a bar; empty: none
+  std::optional<std::size_t> like = {};  ///< number of a curve that it continues: it has its colour and no legend
 };
 
 struct Axis {

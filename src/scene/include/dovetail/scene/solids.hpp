@@ -8,7 +8,8 @@ namespace dovetail::scene {
 struct BoxMesh {
   std::string shape = "hex8";
   std::array<int, 3> cells{};
-  geometry::Box box = requiredBox;  ///< m
+  geometry::Box box = requiredBox;    ///< m
+  std::optional<geometry::Box> hole;  ///< m: cells whose centres lie in it are left out
 };
 struct MeshFile {
   std::string file;
@@ -241,11 +242,13 @@ struct SurfaceContact {
   std::optional<ContactLaw> contact;
   std::string contactMaterial;
 };
-/// A solid and grains that share the layer between two planes across an axis.
+/// A solid and grains that share the layer between two planes across an axis, or between two boxes.
 struct Overlap {
   int axis = 2;
-  double solidBorder = required;                      ///< m: where the solid ends, within the grains
-  double particleBorder = required;                   ///< m: where the grains end, within the solid
+  std::optional<double> solidBorder;                  ///< m: where the solid ends, within the grains
+  std::optional<double> particleBorder;               ///< m: where the grains end, within the solid
+  std::optional<geometry::Box> solidBox;              ///< m: in place of the planes; the solid ends on its sides
+  std::optional<geometry::Box> particleBox;           ///< m: around it; the grains end on its sides
   int profile = 0;                                    ///< arlequin::WeightProfile
   double floor = 1e-3;                                ///< arlequin::WeightOptions::floor
   int constraint = 0;                                 ///< arlequin::ConstraintKind

@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 
+#include "dovetail/fem/mesh/mesh_places.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::fem {
@@ -23,6 +24,12 @@ SolidMesh mappedBox(ElementShape shape, std::array<int, 3> cells, Vec3 lower, Ve
 /// part; consecutive groups of one shape are one group.
 /// @throws InputError if the tolerance is not > 0, an element loses a node by it, or parts differ in thickness
 SolidMesh joinMeshes(std::span<const SolidMesh> parts, double tolerance);
+
+/// The mesh without the elements whose centre (mean of their corners) lies in a place, and without nodes that have no
+/// element then. What is left keeps its order; sets lose what is gone, and are left out if nothing stays. Faces that
+/// are bared are the set "hole", with their nodes, and belong to "skin" if there is one.
+/// @throws InputError if no element or all of them lie there, or there is a set "hole"
+SolidMesh withHole(const SolidMesh& mesh, const Place& place);
 
 /// The same mesh of second order with straight edges: tet4 becomes tet10, quad4 quad8, hex8 hex20, or hex27 if
 /// `fullBricks`.
