@@ -158,5 +158,65 @@ TEST(ChangedSupportsAre, RefusedWhereTheyCannotBe) {
       {"at once", "start at 0"});
 }
 
+// ---- planes
+
+std::string planeOf(const std::string& motion) {
+  return R"(, "planes": [{"on": "z+", "point": [0, 0, 4], "normal": [0, 0, -1], "stiffness": 1e7)" + motion + "}]";
+}
+std::string pressedAt(const std::string& motion, const std::string& first = R"({"do": "run", "time": 0.1})") {
+  return first + R"(, {"do": "run", "time": 0.1, "changes": {"planes": [{"solid": "bar", "plane": 0, )" + motion +
+         "}]}}";
+}
+
+/// To the last bit: the plane goes on from where it was, with its own time.
+TEST(ChangedPlanes, GoAsThoseThatWereToldBefore) {
+  if (!WITH_EXPRESSIONS) GTEST_SKIP();
+  const auto movedBy = [&](const std::string& plane, const std::string& stages) {
+    const Scene bar = barScene(R"({"on": "z-"})", stages, planeOf(plane));
+    Built built = started(bar);
+    built.run->advance(1000);
+    if (bar.stages.back().changes) begin(built, bar, 1);
+    built.run->advance(1000);
+    EXPECT_LT(std::abs(built.run->ledger().residual()), 1e-3 * built.run->ledger().stored());
+    return std::as_const(*built.run).solid(0).nodes().u;
+  };
+  const auto both = R"({"do": "run", "time": 0.1}, {"do": "run", "time": 0.1})";
+  const auto byChange = movedBy("", pressedAt(R"("velocity": [0, 0, -0.5])"));
+  const auto byTime = movedBy(R"--(, "displacement": [0, 0, "t < 0.1 ? 0 : -0.5*(t - 0.1)"])--", both);
+  const auto further = movedBy(R"(, "velocity": [0, 0, -0.5])", pressedAt(R"("displacement": [0, 0, "-0.5*t"])"));
+  const auto straight = movedBy(R"(, "velocity": [0, 0, -0.5])", both);
+  ASSERT_LT(byChange.back().z, -0.01);
+  ASSERT_LT(straight.back().z, -0.05);
+  for (std::size_t n = 0; n < byChange.size(); ++n) {
+    EXPECT_LT(norm(byChange[n] - byTime[n]), 1e-12);
+    EXPECT_LT(norm(further[n] - straight[n]), 1e-12);
+  }
+}
+
+TEST(ChangedPlanes, ThatCannotBeAreRefused) {
+  const auto refused = [&](const std::string& stages, const std::string& plane = "") {
+    try {
+      const Scene bar = barScene(R"({"on": "z-"})", stages, planeOf(plane));
+      Built built = started(bar);
+      requireChanges(built, bar);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string relax = R"({"do": "relax"})";
+  expectParts(refused(R"({"do": "run", "time": 0.1}, {"do": "run", "time": 0.1, "changes":
+      {"planes": [{"solid": "bar", "plane": 1, "velocity": [0, 0, -1]}]}})"),
+              {"has 1 planes", "stages.1.changes.planes.0"});
+  expectParts(refused(R"({"do": "run", "time": 0.1}, {"do": "run", "time": 0.1, "changes":
+      {"planes": [{"solid": "rod", "plane": 0, "velocity": [0, 0, -1]}]}})"),
+              {"rod"});
+  expectParts(refused(pressedAt(R"("displacement": [0, 0, -1])")), {"moves at once"});
+  expectParts(refused(relax, R"(, "velocity": [0, 0, -1])"), {"a plane has a steady velocity", "solids.0.planes.0"});
+  expectParts(refused(pressedAt(R"("velocity": [0, 0, -1])") + ", " + relax), {"a plane has a steady velocity"});
+  EXPECT_EQ(refused(pressedAt(R"("velocity": [0, 0, -1])", relax)), "");
+  EXPECT_EQ(refused(pressedAt(R"("velocity": [0, 0, 0])") + ", " + relax, R"(, "velocity": [0, 0, -1])"), "");
+}
+
 }  // namespace
 }  // namespace dovetail::scene::test

@@ -253,7 +253,7 @@ double stiffestPenalty(const fem::SolidMesh& mesh, const std::vector<fem::Face>&
   return largest;
 }
 
-void add(const LoadedFaces& body, const Solid& solid, std::size_t number, const Scene& scene, const Built& built) {
+void add(const LoadedFaces& body, const Solid& solid, std::size_t number, const Scene& scene, Built& built) {
   const fem::SolidMesh& mesh = body.mesh;
   const SolidPlane& plane = solid.planes[number];
   if (norm(plane.normal) == 0.0)
@@ -267,7 +267,14 @@ void add(const LoadedFaces& body, const Solid& solid, std::size_t number, const 
     options.penalty = (solid.implicitSteps ? 1.0 : 0.1) * stiffestPenalty(mesh, faces, solid, built);
   fem::Plane rigid{.point = plane.point, .normal = plane.normal};
   const bool moves = plane.displacement || !isConstant(plane.velocity) || norm(constantOf(plane.velocity)) > 0.0;
-  if (moves) rigid.motion = pathOf(plane.velocity, plane.displacement, scene, stepOf(*built.run)).displacement;
+  const auto path = pathOf(plane.velocity, plane.displacement, scene, stepOf(*built.run)).displacement;
+  if (isPlaneChanged(solid.name, number, scene)) {
+    const auto now = std::make_shared<std::function<Vec3(double)>>(path);
+    built.changing.planes[keyOfPlane(solid.name, number)] = now;
+    rigid.motion = [now](double t) { return (*now)(t); };
+  } else if (moves) {
+    rigid.motion = path;
+  }
   if (!solid.state &&
       std::ranges::all_of(mesh.X, [&](const Vec3& X) { return dot(X - plane.point, plane.normal) < 0.0; }))
     throw InputError("all of \"" + solid.name + "\" lies behind the plane", "",
@@ -318,7 +325,7 @@ std::vector<fem::ContactPlane::Report> planeReports(const fem::Model& model) {
   return reports;
 }
 
-void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, const Built& built) {
+void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, Built& built) {
   for (std::size_t k = 0; k < solid.planes.size(); ++k)
     atPlace(solid.planes[k].where, [&] { add(body, solid, k, scene, built); });
 }

@@ -1,6 +1,7 @@
 #include "changes.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "dovetail/core/error.hpp"
 #include "law_kinds.hpp"
@@ -78,6 +79,17 @@ void change(std::vector<SupportNow>& supports, const SupportChange& change, doub
   supports.back().support.where = change.where;
 }
 
+/// From where it is then.
+void changePlanes(Built& built, const Scene& scene, const Changes& changes, double since) {
+  for (const PlaneChange& one : changes.planes) {
+    std::function<Vec3(double)>& motion =
+        *built.changing.planes.at(keyOfPlane(one.solid, static_cast<std::size_t>(one.plane)));
+    const Vec3 from = motion(since);
+    const auto further = pathOf(one.velocity, one.displacement, scene, stepOf(*built.run)).displacement;
+    motion = [=](double t) { return from + further(std::max(0.0, t - since)); };
+  }
+}
+
 void changeSupports(Built& built, const Scene& scene, const Changes& changes, const StageStart& start) {
   for (std::size_t s = 0; s < scene.solids.size() && s < start.displacements.size(); ++s) {
     if (start.displacements[s].u.empty()) continue;
@@ -132,6 +144,16 @@ void requireLoad(const Scene& scene, const LoadChange& change) {
                      "give both the same \"follows\"");
 }
 
+void requirePlane(const Built& built, const Scene& scene, const PlaneChange& change) {
+  const Solid& solid = scene.solids[solidNamed(change.solid, *built.run)];
+  if (change.plane >= static_cast<std::int64_t>(solid.planes.size()))
+    throw InputError("\"" + change.solid + "\" has " + std::to_string(solid.planes.size()) + " planes", "",
+                     "take one of them, counted from 0");
+  if (norm(pathOf(change.velocity, change.displacement, scene, stepOf(*built.run)).displacement(0.0)) > 0.0)
+    throw InputError("the plane moves at once as the stage begins", "",
+                     "let its displacement start at 0: t counts from there");
+}
+
 bool isPut(const SupportNow& one, const SupportChange& change) {
   const Support &a = one.support, &b = change.support;
   return a.on == b.on && ((a.x && b.x) || (a.y && b.y) || (a.z && b.z));
@@ -157,13 +179,33 @@ void requireSupports(const Built& built, const Scene& scene, const SupportChange
                      "let its displacement start at 0, such as \"0.1*min(t/T, 1)\": t counts from there");
 }
 
+constexpr const char* beginLater =
+    "run for a time in place of relaxing, or let a later stage begin it by its \"changes\"";
+bool isSteady(const TimeVector& velocity) { return isConstant(velocity) && norm(constantOf(velocity)) > 0.0; }
+
 /// While a stage relaxes.
 void requireStandstill(const std::vector<std::vector<SupportNow>>& supports) {
   for (const std::vector<SupportNow>& all : supports)
     for (const SupportNow& one : all)
-      if (isConstant(one.support.velocity) && norm(constantOf(one.support.velocity)) > 0.0)
-        throw InputError("a stage relaxes, but a support has a steady velocity", one.support.where,
-                         "give it a displacement such as \"0.1*min(t/T, 1)\", or run in place of relaxing");
+      if (isSteady(one.support.velocity))
+        throw InputError("a stage relaxes, but a support has a steady velocity", one.support.where, beginLater);
+}
+
+/// Planes while a stage relaxes.
+void requireStandstillOfPlanes(const Scene& scene) {
+  std::map<std::string, const std::string*> moving;  // by key, where its motion is
+  for (const Solid& solid : scene.solids)
+    for (std::size_t k = 0; k < solid.planes.size(); ++k)
+      if (isSteady(solid.planes[k].velocity)) moving[keyOfPlane(solid.name, k)] = &solid.planes[k].where;
+  for (const Stage& stage : scene.stages) {
+    for (const PlaneChange& one : stage.changes ? stage.changes->planes : std::vector<PlaneChange>{}) {
+      const std::string key = keyOfPlane(one.solid, static_cast<std::size_t>(one.plane));
+      moving.erase(key);
+      if (isSteady(one.velocity)) moving[key] = &one.where;
+    }
+    if (std::holds_alternative<Relax>(stage.kind) && !moving.empty())
+      throw InputError("a stage relaxes, but a plane has a steady velocity", *moving.begin()->second, beginLater);
+  }
 }
 
 /// What moves steadily as a stage begins.
@@ -171,9 +213,7 @@ struct Steady {
   bool path = false, belt = false, present = true;
   std::string where;
 };
-bool isSteadyPath(const WallMotion& motion) {
-  return norm(motion.angularVelocity) > 0.0 || (isConstant(motion.velocity) && norm(constantOf(motion.velocity)) > 0.0);
-}
+bool isSteadyPath(const WallMotion& motion) { return norm(motion.angularVelocity) > 0.0 || isSteady(motion.velocity); }
 void requireStandstill(const Scene& scene) {
   std::vector<Steady> walls;
   for (const Wall& wall : scene.walls)
@@ -190,7 +230,7 @@ void requireStandstill(const Scene& scene) {
       if (wall.present && (wall.path || wall.belt))
         throw InputError(
             std::string("a stage relaxes, but a wall has a steady ") + (wall.path ? "velocity" : "surface_velocity"),
-            wall.where, "run for a time in place of relaxing, or let a later stage begin it by its \"changes\"");
+            wall.where, beginLater);
   }
 }
 
@@ -224,6 +264,7 @@ void beginStage(Built& built, const Scene& scene, std::size_t stage, const Stage
     if (grains == Grains::areThere) requireNoneBehind(built, scene, changes);
     if (changes.gravity) *built.changing.gravity = *changes.gravity;
     changeLoads(built, scene, changes, start.time);
+    changePlanes(built, scene, changes, start.time);
     changeSupports(built, scene, changes, start);
   };
   // Walls that jump to where a state has them may pass grains that still lie as at the start. Solids begin anew where
@@ -233,6 +274,7 @@ void beginStage(Built& built, const Scene& scene, std::size_t stage, const Stage
 
 void requireChanges(const Built& built, const Scene& scene) {
   requireStandstill(scene);
+  requireStandstillOfPlanes(scene);
   std::vector<std::vector<SupportNow>> supports = built.supports;
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
     if (!scene.stages[k].changes) {
@@ -249,6 +291,7 @@ void requireChanges(const Built& built, const Scene& scene) {
       atPlace(pair.law.where, [&] { contactRow(scene, pair.first), contactRow(scene, pair.second); });
     }
     for (const LoadChange& one : changes.loads) atPlace(one.where, [&] { requireLoad(scene, one); });
+    for (const PlaneChange& one : changes.planes) atPlace(one.where, [&] { requirePlane(built, scene, one); });
     for (const SupportChange& one : changes.supports)
       requireSupports(built, scene, one, supports, static_cast<double>(k + 1));
     if (std::holds_alternative<Relax>(scene.stages[k].kind)) requireStandstill(supports);
@@ -302,6 +345,16 @@ bool isChanged(const Load& load, const Solid& solid, const Scene& scene) {
            });
   });
 }
+
+bool isPlaneChanged(const std::string& solid, std::size_t plane, const Scene& scene) {
+  return std::ranges::any_of(scene.stages, [&](const Stage& stage) {
+    return stage.changes && std::ranges::any_of(stage.changes->planes, [&](const PlaneChange& one) {
+             return one.solid == solid && one.plane == static_cast<std::int64_t>(plane);
+           });
+  });
+}
+
+std::string keyOfPlane(const std::string& solid, std::size_t plane) { return solid + " " + std::to_string(plane); }
 
 std::string keyOfLoad(const std::string& solid, const Load& load, int component) {
   return solid + " " + load.on + " " + std::to_string(load.kind.index()) + " " + std::to_string(component);

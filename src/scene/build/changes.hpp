@@ -50,6 +50,9 @@ bool changesGravity(const Scene& scene);
 bool changesSupports(const Solid& solid, const Scene& scene);
 /// Whether a stage changes a load of a solid.
 bool isChanged(const Load& load, const Solid& solid, const Scene& scene);
+/// Whether a stage changes the motion of a plane of a solid.
+bool isPlaneChanged(const std::string& solid, std::size_t plane, const Scene& scene);
+std::string keyOfPlane(const std::string& solid, std::size_t plane);
 std::string keyOfLoad(const std::string& solid, const Load& load, int component);
 
 }  // namespace dovetail::scene

@@ -109,7 +109,7 @@ struct LoadedFaces {
 void addLoads(const LoadedFaces& body, const Solid& solid, const Scene& scene, Built& built);
 /// Of the planes of a solid, in their order, in its present state.
 std::vector<fem::ContactPlane::Report> planeReports(const fem::Model& model);
-void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, const Built& built);
+void addPlanes(const LoadedFaces& body, const Solid& solid, const Scene& scene, Built& built);
 /// Adds the sets of the scene to those of the mesh. @throws InputError for names that are there, and empty sets
 void addSets(fem::SolidMesh& mesh, const Solid& solid);
 

@@ -66,6 +66,12 @@ void describe(Fields& f, SupportChange& v) {
   describe(f, v.support);
   f.flag({"present", "false: the nodes are let go"}, v.present);
 }
+void describe(Fields& f, PlaneChange& v) {
+  f.where(v.where);
+  f.text({"solid", "name of the solid"}, v.solid, true);
+  f.integer({"plane", "which item of the solid's \"planes\", counted from 0"}, v.plane, 0, 1000000);
+  path(f, v.velocity, v.displacement);
+}
 void describe(Fields& f, Changes& v) {
   f.where(v.where);
   f.vector({"gravity", "acceleration"}, v.gravity, unit::acceleration);
@@ -74,6 +80,7 @@ void describe(Fields& f, Changes& v) {
   f.list({"walls", "motions, belts and presence of walls"}, v.walls);
   f.list({"loads", "in place of the load of this kind on the same face set"}, v.loads);
   f.list({"supports", "in place of those on the same node set and components; motions go on from there"}, v.supports);
+  f.list({"planes", "motions of rigid planes, which go on from there"}, v.planes);
 }
 void describe(Fields& f, Stage& v) {
   static constexpr const char* kinds[] = {"relax", "run", "statics", "modes"};

@@ -299,8 +299,10 @@ void describe(Fields& f, Overlap& v) {
   static constexpr const char* automatic[] = {"auto"};
   f.choice({"axis", "across the planes between which the weights change from one model to the other"}, v.axis,
            axisNames);
-  f.number({"solid_border", "coordinate of the plane at which the solid ends, within the grains; both borders or both boxes are needed"}, v.solidBorder,
-           any(unit::length));
+  f.number(
+      {"solid_border",
+       "coordinate of the plane at which the solid ends, within the grains; both borders or both boxes are needed"},
+      v.solidBorder, any(unit::length));
   f.number({"particle_border", "coordinate of the plane at which the grains end, within the solid"}, v.particleBorder,
            any(unit::length));
   f.box({"solid_box", "in place of the planes: where the solid ends, around grains alone"}, v.solidBox);

@@ -286,8 +286,7 @@ bool comesTo(const std::vector<Extent>& moving, const Vec3& velocity, const std:
 /// Extents say where they meet, and overlaps at the start are told elsewhere.
 void lookAtMeetings(const Built& built, const Scene& scene, Lines& lines) {
   std::vector<std::vector<Extent>> bodies;
-  for (std::size_t s = 0; s < scene.solids.size(); ++s)
-    bodies.push_back(extentsOf(scene.solids[s], built.meshes[s]));
+  for (std::size_t s = 0; s < scene.solids.size(); ++s) bodies.push_back(extentsOf(scene.solids[s], built.meshes[s]));
   for (std::size_t j = 0; j < bodies.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
       const Vec3 velocity = scene.solids[j].velocity - scene.solids[i].velocity;

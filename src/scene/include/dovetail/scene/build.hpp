@@ -34,6 +34,7 @@ struct WallParts {
 struct ChangingParts {
   std::shared_ptr<Vec3> gravity = std::make_shared<Vec3>();
   std::map<std::string, std::shared_ptr<std::function<double(double)>>> loads{};
+  std::map<std::string, std::shared_ptr<std::function<Vec3(double)>>> planes{};  ///< displacements, m
 };
 
 /// A support as a stage has left it.

@@ -58,6 +58,14 @@ struct SupportChange {
   bool present = true;  ///< false: the nodes are let go
   std::string where;
 };
+/// Of a rigid plane of a solid, which goes on from where it is.
+struct PlaneChange {
+  std::string solid;
+  std::int64_t plane = 0;                  ///< item of its planes
+  TimeVector velocity;                     ///< m/s
+  std::optional<TimeVector> displacement;  ///< m; in place of a velocity
+  std::string where;
+};
 /// At the start of a stage. Functions of time count from there.
 struct Changes {
   std::optional<Vec3> gravity;
@@ -66,6 +74,7 @@ struct Changes {
   std::vector<WallChange> walls;
   std::vector<LoadChange> loads;
   std::vector<SupportChange> supports;
+  std::vector<PlaneChange> planes;
   std::string where;
 };
 struct Stage {
