@@ -16,8 +16,8 @@ using namespace dovetail::dem_benchmark;
 void refuseIdleOptions(const program::Options& o, const Settings& s) {
   const std::string with = "with --study " + s.study, remedy = "leave it out";
   if (!s.write.empty())
-    o.refuseIdle("--study --summary --only --scene --copies --steps --warm-up --repeat", "with --write", remedy);
-  if (s.study != "peers") o.refuseIdle("--scene --copies", with, remedy);
+    o.refuseIdle("--study --summary --only --scene --copies --skin --steps --warm-up --repeat", "with --write", remedy);
+  if (s.study != "peers") o.refuseIdle("--scene --copies --skin", with, remedy);
   if (s.study != "stability") o.refuseIdle("--only", with, remedy);
   if (s.study == "peers") o.refuseIdle("--quick", with, remedy);
   if (s.study == "threads") o.refuseIdle("--threads", with, remedy);
@@ -39,6 +39,8 @@ bool parse(int argc, char** argv, Settings& s) {
   o.text("--only TEXT", s.only, "stability: cases whose name contains this");
   o.texts("--scene bed|hertz|lattice|polydisperse|drum", scenes, "peers: scenes to time; may be given several times");
   o.integer("--copies N", s.copies, 1, 1000, "peers: beds or drums side by side");
+  o.number("--skin X", s.skin, program::notNegative("a skin of 0 or more, at most 10", 10.0),
+           "peers: skin of the neighbour lists, m");
   o.integer("--steps N", s.steps, 2, 1000000, "steps per timing");
   o.integer("--warm-up N", s.warmUp, 1, 1000000, "steps before the timings");
   o.integer("--repeat N", s.repeats, 1, 1000, "timings, of which the median counts");

@@ -19,7 +19,7 @@ Spheres readScene(const Settings& s, const char* name) {
 
 Figures timeBed(const Settings& s, const std::string& name, const auto& law) {
   const double width = 20.0 * s.copies;
-  auto model = bedModel(repeated(readScene(s, "bed.txt"), s.copies, 20.0), law, width);
+  auto model = bedModel(repeated(readScene(s, "bed.txt"), s.copies, 20.0), law, width, s.skin);
   return measure(name, model, timeStep, s.warmUp, s.steps, s.repeats);
 }
 
@@ -27,16 +27,16 @@ Figures timeScene(const Settings& s, const std::string& name) {
   if (name == "bed") return timeBed(s, name, frictionalLaw());
   if (name == "hertz") return timeBed(s, name, hertzLaw());
   if (name == "lattice") {
-    auto model = waveLattice(50, 50, 40);
+    auto model = waveLattice(50, 50, 40, s.skin);
     return measure(name, model, timeStep, s.warmUp, s.steps, s.repeats);
   }
   if (name == "polydisperse") {
     constexpr double edge = 44.0;
-    auto model =
-        makeModel(readScene(s, "poly.txt"), frictionalLaw(), {{{0, 0, 0}, {edge, edge, edge}}, {true, true, true}}, {});
+    auto model = makeModel(readScene(s, "poly.txt"), frictionalLaw(),
+                           {{{0, 0, 0}, {edge, edge, edge}}, {true, true, true}}, {}, s.skin);
     return measure(name, model, timeStep, s.warmUp, s.steps, s.repeats, 50);
   }
-  auto model = drumModel(repeated(readScene(s, "drum.txt"), s.copies, drumWidth, 2), drumWidth * s.copies);
+  auto model = drumModel(repeated(readScene(s, "drum.txt"), s.copies, drumWidth, 2), drumWidth * s.copies, s.skin);
   return measure(name, model, drumStep, s.warmUp, s.steps, s.repeats);
 }
 

@@ -149,7 +149,7 @@ Spheres lattice(int nx, int ny, int nz, double diameter) {
 }
 
 dem::Model makeModel(const Spheres& spheres, std::shared_ptr<const dem::ContactLaws> laws,
-                     const geometry::Periodicity& periodicity, const Vec3& gravity) {
+                     const geometry::Periodicity& periodicity, const Vec3& gravity, double skin) {
   dem::Model model;
   model.laws = std::move(laws);
   model.gravity = gravity;
@@ -165,16 +165,16 @@ dem::Model makeModel(const Spheres& spheres, std::shared_ptr<const dem::ContactL
     if (rotates) model.particles.omega[i] = spheres.omega[i];
   }
   model.pairs.setPeriodicity(periodicity);
-  model.pairs.setSkin(listSkin);
+  model.pairs.setSkin(skin);
   findPairs(model.particles, model.pairs);
   sortParticles(model.particles, model.pairs);
   return model;
 }
 
-dem::Model bedModel(const Spheres& bed, std::shared_ptr<const dem::ContactLaws> laws, double width) {
+dem::Model bedModel(const Spheres& bed, std::shared_ptr<const dem::ContactLaws> laws, double width, double skin) {
   geometry::Periodicity sideways{{{0, 0, 0}, {width, 20, 1}}, {true, true, false}};
-  auto model = makeModel(bed, std::move(laws), sideways, {0, 0, -1});
-  dem::addWall(model, dem::makePlane({}, {0, 0, 1})).skin = listSkin;
+  auto model = makeModel(bed, std::move(laws), sideways, {0, 0, -1}, skin);
+  dem::addWall(model, dem::makePlane({}, {0, 0, 1})).skin = skin;
   return model;
 }
 
@@ -221,11 +221,12 @@ Spheres flowingDrum() {
   return spheres;
 }
 
-dem::Model drumModel(const Spheres& spheres, double length) {
+dem::Model drumModel(const Spheres& spheres, double length, double skin) {
   const double r = drumRadius;
-  auto model = makeModel(spheres, frictionalLaw(), {{{-r, -r, 0}, {r, r, length}}, {false, false, true}}, {0, -1, 0});
+  auto model =
+      makeModel(spheres, frictionalLaw(), {{{-r, -r, 0}, {r, r, length}}, {false, false, true}}, {0, -1, 0}, skin);
   dem::PrimitiveWall& wall = dem::addWall(model, dem::makeCylinder({}, {0, 0, 1}, drumRadius));
-  wall.skin = listSkin;
+  wall.skin = skin;
   wall.angularVelocity = {0, 0, drumSpeed};
   return model;
 }
@@ -272,9 +273,9 @@ Spheres bigAmongSmall(double edge, int bigOnes, double bigDiameter, unsigned see
   return spheres;
 }
 
-dem::Model waveLattice(int nx, int ny, int nz) {
+dem::Model waveLattice(int nx, int ny, int nz, double skin) {
   auto model = makeModel(lattice(nx, ny, nz, 1.01), dem::ElasticLaw{{stiffness}},
-                         {{{0, 0, 0}, {double(nx), double(ny), double(nz)}}, {true, true, true}}, {});
+                         {{{0, 0, 0}, {double(nx), double(ny), double(nz)}}, {true, true, true}}, {}, skin);
   for (std::size_t i = 0; i < model.particles.size(); ++i)
     model.particles.v[i].x = 0.01 * std::sin(2.0 * 3.14159265358979324 * model.particles.x[i].x / nx);
   return model;

@@ -46,27 +46,28 @@ dem::FrictionalLaw frictionalLaw();
 /// Hertz–Mindlin of about the same stiffness at these overlaps.
 dem::HertzMindlinLaw hertzLaw();
 
-/// Puts the spheres into a model with the list made and particles sorted.
+/// Puts the spheres into a model with the list made and particles sorted. @param skin m, of the list
 dem::Model makeModel(const Spheres& spheres, std::shared_ptr<const dem::ContactLaws> laws,
-                     const geometry::Periodicity& periodicity, const Vec3& gravity);
+                     const geometry::Periodicity& periodicity, const Vec3& gravity, double skin = listSkin);
 template <class Law>
 dem::Model makeModel(const Spheres& spheres, const Law& law, const geometry::Periodicity& periodicity,
-                     const Vec3& gravity) {
-  return makeModel(spheres, dem::makeContactLaws(law), periodicity, gravity);
+                     const Vec3& gravity, double skin = listSkin) {
+  return makeModel(spheres, dem::makeContactLaws(law), periodicity, gravity, skin);
 }
 
 /// Bed periodic in x and y on a floor at z = 0.
-dem::Model bedModel(const Spheres& bed, std::shared_ptr<const dem::ContactLaws> laws, double width);
+dem::Model bedModel(const Spheres& bed, std::shared_ptr<const dem::ContactLaws> laws, double width,
+                    double skin = listSkin);
 template <class Law>
-dem::Model bedModel(const Spheres& bed, const Law& law, double width) {
-  return bedModel(bed, dem::makeContactLaws(law), width);
+dem::Model bedModel(const Spheres& bed, const Law& law, double width, double skin = listSkin) {
+  return bedModel(bed, dem::makeContactLaws(law), width, skin);
 }
 
 /// Slightly squeezed spheres without friction on a periodic lattice, with a wave running through.
-dem::Model waveLattice(int nx, int ny, int nz);
+dem::Model waveLattice(int nx, int ny, int nz, double skin = listSkin);
 
 /// Drum of the given length about z, periodic along it, turning; gravity pulls along −y.
-dem::Model drumModel(const Spheres& spheres, double length);
+dem::Model drumModel(const Spheres& spheres, double length, double skin = listSkin);
 
 /// Five inner faces of an open box, [0, edge]² × [0, height], as planes or meshed with right triangles.
 std::vector<dem::PrimitiveWall> boxOfPlanes(double edge, double skin);

@@ -16,6 +16,7 @@ struct Settings {
   std::string only;                        ///< of the stability study: cases whose name holds this
   std::vector<std::string> scenes{"bed"};  ///< of the study of peers
   int steps = 100, warmUp = 300, repeats = 5, threads = 1, copies = 5;
+  double skin = 0.1;   ///< m, of the study of peers
   bool quick = false;  ///< small scenes, few steps: to see whether all runs
 };
 
