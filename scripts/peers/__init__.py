@@ -1,0 +1,1 @@
+"""Both programs of scripts/compare-peers on the same scenes."""
