@@ -24,7 +24,7 @@ def scenes(folder, steps, beds):
         yield Scene(f"bed {2 * copies}e4, linear + friction", "bed", "bed", bed | {"copies": copies, "law": "hooke"})
     yield Scene("bed 1e5, Hertz-Mindlin", "hertz", "bed", bed | {"copies": 5, "law": "hertz"})
     yield Scene("lattice, frictionless", "lattice", "lattice", {"steps": steps, "warm": 200})
-    # LAMMPS does not look whether its list still holds.
+    # LAMMPS does not look whether its list still holds: at small skins it does not.
     yield Scene("1:10, list made every 50 steps", "polydisperse", "polydisperse",
                 {"steps": steps, "warm": 100, "data": folder / "poly.data"}, least_skin=0.1)
     yield Scene("flowing drum, 1e5", "drum", "drum", drum | {"copies": 5})
