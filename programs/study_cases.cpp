@@ -145,7 +145,7 @@ Earlier earlierOf(const fs::path& folder, const StudyRun& run, const scene::Scen
     return {};
   }
   for (const report::Json& row : rows)
-    if (row["label"] == run.label() && row["outcome"] == "finished" &&
+    if (row["label"] == run.label() && row["outcome"] == "finished" && row.contains("processor_seconds") &&
         row["settings"].value("folder", "") == folder.filename().string()) {
       report::Json figures = row;
       for (const char* const key : {"label", "way", "point", "outcome", "message", "settings", "on_front", "prepares"})
@@ -174,6 +174,7 @@ fs::path folderOf(const StudySettings& settings, std::size_t run) {
 }
 
 report::Study studyOf(const StudySettings& settings) {
+  requireSizes(settings);
   report::Study study;
   study.program = "dovetail";
   study.name = "study";

@@ -161,11 +161,11 @@ void drawCurves(const StudySettings& settings, const std::vector<StudyRun>& runs
     figure.curves.push_back(std::move(curve));
     figure.curves.back().name = name;
   };
-  const std::vector<std::size_t> repeats = references(settings, runs);
-  if (repeats.empty())
-    add(curveOfFile(settings.against->file, *settings.against, y), "reference");
-  else if (finished(rows[repeats.front()]))
-    add(curveOfRun(settings, repeats.front(), y), "reference");
+  std::vector<std::size_t> drawn = references(settings, runs);
+  if (drawn.empty()) add(curveOfFile(settings.against->file, *settings.against, y), "reference");
+  std::erase_if(drawn, [&](std::size_t k) { return runs[k].repeat != runs.front().repeat; });
+  for (const std::size_t k : drawn)
+    if (finished(rows[k])) add(curveOfRun(settings, k, y), drawn.size() == 1 ? "reference" : runs[k].label());
   for (std::size_t k = 0; k < runs.size() && figure.curves.size() <= shownCurves; ++k)
     if (isCompared(rows[k]) && runs[k].repeat == runs.front().repeat) add(curveOfRun(settings, k, y), runs[k].label());
   io::writeFileAtomically(settings.folder / curveFile(settings, y),

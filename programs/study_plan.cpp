@@ -137,22 +137,19 @@ void findReference(const StudyPlan& plan, Against& against, const std::string& f
   if (std::ranges::none_of(runs,
                            [&](const StudyRun& run) { return run.way == against.way && isAt(run, against.point); }))
     throw InputError("the way has no point \"" + against.point + "\"", file + ", against.point", "take one of " + list);
+  bool any = false;
   for (const StudyRun& run : runs) {
     if (run.prepares || (run.way == against.way && isAt(run, against.point))) continue;
+    any = true;
     const std::size_t count = pointsBeside(run, runs, against).size();
     if (count != 1)
       throw InputError(count == 0 ? "no run of the way stands beside \"" + run.label() + "\""
                                   : "the way has several points beside \"" + run.label() + "\"",
                        file + ", against.point", "take one of " + list);
   }
-}
-
-void requireSizes(const StudyPlan& plan, const std::string& file) {
-  bool any = false;
-  for (const StudyRun& run : runsOf(plan)) any = sizeOf(run, plan.size).has_value() || any;
   if (!any)
-    throw InputError("no axis has the key \"" + plan.size + "\"", file + ", size",
-                     "name the key of an axis that ways have in common");
+    throw InputError("all runs are references, and none is held to them", file + ", against.point",
+                     "take one of " + list);
 }
 
 }  // namespace
@@ -176,7 +173,6 @@ StudyPlan readStudy(const std::string& file) {
     throw InputError("there are \"ways\" beside a scene or axes of the study's own", file,
                      "give each way its scene and its axes");
   requireWays(plan);
-  if (!plan.size.empty()) requireSizes(plan, file);
   if (plan.repeat) requireAxes({*plan.repeat});
   if (!read.columns.empty()) plan.columns = partsOf(read.columns);
   if (!read.error.empty()) plan.error = partsOf(read.error);
@@ -270,9 +266,11 @@ std::string withFolders(std::string text, const StudyRun& run, const std::vector
 
 bool areBeside(const StudyRun& a, const StudyRun& b, const std::string& point) {
   const std::vector<std::string> named = partsOf(point);
-  const auto isNamed = [&](const StudyRun::Place& one) { return std::ranges::find(named, one.name) != named.end(); };
+  const auto isNamed = [&](const StudyRun::Place& one) {
+    return one.name == point || std::ranges::find(named, one.name) != named.end();
+  };
   return a.repeat == b.repeat && std::ranges::all_of(a.places, [&](const StudyRun::Place& one) {
-           return one.key.empty() || isNamed(one) || std::ranges::all_of(b.places, [&](const StudyRun::Place& other) {
+           return isNamed(one) || std::ranges::all_of(b.places, [&](const StudyRun::Place& other) {
                     return other.key != one.key || other.name == one.name;
                   });
          });
@@ -280,12 +278,23 @@ bool areBeside(const StudyRun& a, const StudyRun& b, const std::string& point) {
 
 bool isAt(const StudyRun& run, const std::string& point) {
   if (point.empty() || point == run.point) return true;
-  return std::ranges::all_of(partsOf(point), [&](const std::string& name) {
+  const auto has = [&](const std::string& name) {
     return std::ranges::any_of(run.places, [&](const StudyRun::Place& one) { return one.name == name; });
-  });
+  };
+  return has(point) || std::ranges::all_of(partsOf(point), has);
+}
+
+void requireSizes(const StudyPlan& plan) {
+  const std::vector<StudyRun> runs = runsOf(plan);
+  const auto isCompared = [&](const StudyRun& run) { return !run.prepares && sizeOf(run, plan.size); };
+  if (!plan.size.empty() && std::ranges::none_of(runs, isCompared))
+    throw InputError("no axis has the key \"" + plan.size + "\"", "size",
+                     "name the key of an axis that ways have in common");
 }
 
 std::optional<double> sizeOf(const StudyRun& run, const std::string& key) {
+  if (std::ranges::count(run.places, key, &StudyRun::Place::key) > 1)
+    throw InputError("two axes of the way have the key of the size", key, "leave one of them out");
   for (const StudyRun::Place& place : run.places) {
     if (key.empty() || place.key != key) continue;
     const std::string value = place.name.substr(key.size() + 1);
@@ -336,9 +345,10 @@ std::vector<StudyRun> runsOf(const StudyPlan& plan) {
     };
     for (const Axis& axis : way.over) {
       multiply(axis, &StudyRun::point);
-      const std::size_t points = pointsOf(axis).size();
-      for (std::size_t k = 0; k < some.size(); ++k)
-        some[k].places.push_back({axis.key, pointsOf(axis)[k % points].name});
+      const std::vector<Point> points = pointsOf(axis);
+      std::string key = axis.key;
+      for (std::size_t k = 0; k < points.size() && axis.key.empty(); ++k) key += points[k].name + ";";
+      for (std::size_t k = 0; k < some.size(); ++k) some[k].places.push_back({key, points[k % points.size()].name});
     }
     if (plan.repeat) multiply(*plan.repeat, &StudyRun::repeat);
     for (StudyRun& run : some) {

@@ -80,7 +80,7 @@ struct StudyRun {
   std::string way, point, repeat;  ///< labels
   std::vector<Setting> common;     ///< of all runs of its way
   std::vector<Setting> set;        ///< what is its own
-  /// Its place on each axis: the key (empty for axes of named points), and the name of the point.
+  /// Its place on each axis: the key (of axes of named points all their names), and the name of the point.
   struct Place {
     std::string key, name;
   };
@@ -97,7 +97,10 @@ bool isAt(const StudyRun& run, const std::string& point);
 /// The text with {NAME} of ways that prepare replaced by folder(number of their run).
 std::string withFolders(std::string text, const StudyRun& run, const std::vector<StudyRun>& runs,
                         const std::function<std::string(std::size_t)>& folder);
-/// The number of its place on the axis of this key; nothing if it has none. @throws InputError if it is no number > 0
+/// @throws InputError if there is a size, and no run that is compared has one
+void requireSizes(const StudyPlan& plan);
+/// The number of its place on the axis of this key; nothing if it has none.
+/// @throws InputError if it is no number > 0, or if two axes have the key
 std::optional<double> sizeOf(const StudyRun& run, const std::string& key);
 /// Its way, with the names of its places on all other axes.
 std::string seriesOf(const StudyRun& run, const std::string& key);

@@ -81,7 +81,7 @@ std::optional<BreakEven> breakEven(const CostCurve& dear, const CostCurve& cheap
   const Growth a = growthOf(dear), b = growthOf(cheap);
   const double size = crossing(dear, a.exponent, cheap, b.exponent);
   if (!std::isfinite(size) || costsLessAtFirst(dear, cheap)) return {};
-  if (size <= std::max(dear.size.back(), cheap.size.back())) return BreakEven{size, {}};
+  if (size <= std::min(dear.size.back(), cheap.size.back())) return BreakEven{size, {}};
   return BreakEven{size, std::array{crossing(dear, a.most, cheap, b.least), crossing(dear, a.least, cheap, b.most)}};
 }
 

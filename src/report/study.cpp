@@ -151,6 +151,7 @@ std::vector<CostCurve> costCurves(const Study& study, const std::vector<Json>& r
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const StudyCase& one = study.cases[k];
     if (!one.size || rows[k].is_null() || !finished(rows[k]) || rows[k].value("prepares", false)) continue;
+    if (!(numberIn(rows[k], study.cost.figure) > 0.0)) continue;
     if (!costs.contains(one.series)) order.push_back(one.series);
     costs[one.series][*one.size].push_back(numberIn(rows[k], study.cost.figure));
   }

@@ -63,6 +63,11 @@ TEST(Scaling, CurvesOfOtherSizesMeetWhereBothAre) {
   const auto at = breakEven(dear, cheap);
   ASSERT_TRUE(at);
   EXPECT_NEAR(at->size, 8.0, 1e-9);
+  EXPECT_FALSE(at->range);
+  // The dear one was not run at the larger sizes: it has a range there.
+  const auto beyond = breakEven(power("a", 1.0, 3.0, {1, 2}), power("b", 64.0, 1.0, {1, 2, 4, 8, 16}));
+  ASSERT_TRUE(beyond && beyond->range);
+  EXPECT_NEAR(beyond->size, 8.0, 1e-9);
 }
 
 TEST(Scaling, WhatHasNoGrowthIsRefused) {

@@ -435,8 +435,14 @@ TEST(StudyVerb, WaysMeetWhereTheyHaveTheSameValuesOfAnAxis) {
   refused("several points beside \"coarse: share=0.05, speed=1\"");
   write(R"(, "point": "steps.safety=0.01")", "0.05, 0.2");
   refused("no run of the way stands beside \"coarse: share=0.2, speed=1\"");
-  write(R"(, "point": "steps.safety=0.01")", "0.05, 10 mm");
+  write(R"(, "point": "steps.safety=0.01")");
+  std::string text = readText(plan);
+  for (std::size_t at = 0; (at = text.find("0.05, 0.1", at)) != std::string::npos;) text.replace(at, 9, "0.05, 10 mm");
+  writeText(plan, text);
   refused("no number above 0");
+  text.replace(text.find(R"("size": "share")"), 15, R"("size": "speed")");
+  writeText(plan, text);
+  refused("no axis has the key \"speed\"");
 }
 
 TEST(StudyVerb, WhatCannotBeComparedIsToldInItsRow) {

@@ -213,7 +213,11 @@ TEST(ChangedPlanes, ThatCannotBeAreRefused) {
               {"rod"});
   expectParts(refused(pressedAt(R"("displacement": [0, 0, -1])")), {"moves at once"});
   expectParts(refused(relax, R"(, "velocity": [0, 0, -1])"), {"a plane has a steady velocity", "solids.0.planes.0"});
-  expectParts(refused(pressedAt(R"("velocity": [0, 0, -1])") + ", " + relax), {"a plane has a steady velocity"});
+  expectParts(refused(pressedAt(R"("velocity": [0, 0, -1])") + ", " + relax),
+              {"a plane has a steady velocity", "stages.1.changes.planes.0"});
+  const std::string once = R"({"solid": "bar", "plane": 0, "velocity": [0, 0, -1]})";
+  expectParts(refused(R"({"do": "run", "time": 0.1, "changes": {"planes": [)" + once + ", " + once + "]}}"),
+              {"changes twice", "stages.0.changes.planes.1"});
   EXPECT_EQ(refused(pressedAt(R"("velocity": [0, 0, -1])", relax)), "");
   EXPECT_EQ(refused(pressedAt(R"("velocity": [0, 0, 0])") + ", " + relax, R"(, "velocity": [0, 0, -1])"), "");
 }

@@ -103,6 +103,28 @@ TEST(OverlapBoxes, AMissingHoleIsTold) {
   expectParts(warningsOf(sceneFromText(without, "s.json", "/")), {"nodes lie in solid_box", "as \"hole\""});
   const std::string all = warningsOf(sceneFromText(pit("[0, 0, 0]"), "s.json", "/"));
   EXPECT_EQ(all.find("solid_box"), std::string::npos) << all;
+  const std::string wide = replaced(pit("[0, 0, 0]"), R"("hole": [[0.3, 0.3)", R"("hole": [[0.1, 0.3)");
+  expectParts(warningsOf(sceneFromText(wide, "s.json", "/")), {"ends outside of solid_box", "0.5 of the way"});
+  const std::string beside = replaced(pit("[0, 0, 0]"), R"("solid_box": [[0.3,)", R"("solid_box": [[0.2,)");
+  expectParts(warningsOf(sceneFromText(beside, "s.json", "/")), {"nodes lie in solid_box", "put the box on faces"});
+}
+
+TEST(OverlapBoxes, SecondOrderSharesItsWeightsToo) {
+  std::string text = replaced(pit("[1, 2, -3]"), R"("cells": [10, 10, 7])", R"("cell": "hex20", "cells": [10, 10, 7])");
+  Built built = started(sceneFromText(text, "s.json", "/"));
+  built.run->advance(50);
+  EXPECT_LT(farthest(built.run->solid(0).nodes().v, {1, 2, -3}), 1e-10);
+}
+
+TEST(OverlapBoxes, AcrossOneSideOfAPeriodTheyAreRefused) {
+  const auto along = [](const std::string& period) {
+    return refusalOf(sceneFromText(
+        replaced(pit("[0, 0, 0]"), R"("particles")",
+                 R"("periodic": {"box": [[)" + period + R"(, -9, -9], [1.5, 9, 9]], "axes": ["x"]}, "particles")"),
+        "s.json", "/"));
+  };
+  expectParts(along("0"), {"across one side of the period", "couplings.0"});
+  EXPECT_EQ(along("-0.5"), "");
 }
 
 }  // namespace

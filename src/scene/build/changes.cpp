@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "dovetail/core/error.hpp"
 #include "law_kinds.hpp"
@@ -154,6 +155,16 @@ void requirePlane(const Built& built, const Scene& scene, const PlaneChange& cha
                      "let its displacement start at 0: t counts from there");
 }
 
+void requirePlanes(const Built& built, const Scene& scene, const Changes& changes) {
+  std::set<std::string> known;
+  for (const PlaneChange& one : changes.planes)
+    atPlace(one.where, [&] {
+      requirePlane(built, scene, one);
+      if (!known.insert(keyOfPlane(one.solid, static_cast<std::size_t>(one.plane))).second)
+        throw InputError("the plane changes twice in one stage", "", "leave one of the changes out");
+    });
+}
+
 bool isPut(const SupportNow& one, const SupportChange& change) {
   const Support &a = one.support, &b = change.support;
   return a.on == b.on && ((a.x && b.x) || (a.y && b.y) || (a.z && b.z));
@@ -193,18 +204,18 @@ void requireStandstill(const std::vector<std::vector<SupportNow>>& supports) {
 
 /// Planes while a stage relaxes.
 void requireStandstillOfPlanes(const Scene& scene) {
-  std::map<std::string, const std::string*> moving;  // by key, where its motion is
+  std::map<std::string, std::string> moving;  // by key, where its motion is
   for (const Solid& solid : scene.solids)
     for (std::size_t k = 0; k < solid.planes.size(); ++k)
-      if (isSteady(solid.planes[k].velocity)) moving[keyOfPlane(solid.name, k)] = &solid.planes[k].where;
+      if (isSteady(solid.planes[k].velocity)) moving[keyOfPlane(solid.name, k)] = solid.planes[k].where;
   for (const Stage& stage : scene.stages) {
     for (const PlaneChange& one : stage.changes ? stage.changes->planes : std::vector<PlaneChange>{}) {
       const std::string key = keyOfPlane(one.solid, static_cast<std::size_t>(one.plane));
       moving.erase(key);
-      if (isSteady(one.velocity)) moving[key] = &one.where;
+      if (isSteady(one.velocity)) moving[key] = one.where;
     }
     if (std::holds_alternative<Relax>(stage.kind) && !moving.empty())
-      throw InputError("a stage relaxes, but a plane has a steady velocity", *moving.begin()->second, beginLater);
+      throw InputError("a stage relaxes, but a plane has a steady velocity", moving.begin()->second, beginLater);
   }
 }
 
@@ -274,6 +285,8 @@ void beginStage(Built& built, const Scene& scene, std::size_t stage, const Stage
 
 void requireChanges(const Built& built, const Scene& scene) {
   requireStandstill(scene);
+  for (const Stage& stage : scene.stages)
+    if (stage.changes) requirePlanes(built, scene, *stage.changes);
   requireStandstillOfPlanes(scene);
   std::vector<std::vector<SupportNow>> supports = built.supports;
   for (std::size_t k = 0; k < scene.stages.size(); ++k) {
@@ -291,7 +304,6 @@ void requireChanges(const Built& built, const Scene& scene) {
       atPlace(pair.law.where, [&] { contactRow(scene, pair.first), contactRow(scene, pair.second); });
     }
     for (const LoadChange& one : changes.loads) atPlace(one.where, [&] { requireLoad(scene, one); });
-    for (const PlaneChange& one : changes.planes) atPlace(one.where, [&] { requirePlane(built, scene, one); });
     for (const SupportChange& one : changes.supports)
       requireSupports(built, scene, one, supports, static_cast<double>(k + 1));
     if (std::holds_alternative<Relax>(scene.stages[k].kind)) requireStandstill(supports);

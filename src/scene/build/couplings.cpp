@@ -181,6 +181,13 @@ void requireConsistent(const Overlap& overlap, const coupling::SolidSide& side, 
   const auto require = [](bool good, const char* what, const char* remedy) {
     if (!good) throw InputError(what, "", remedy);
   };
+  for (std::size_t k = 0; overlap.particleBox && scene.periodic && k < 3; ++k) {
+    const int axis = static_cast<int>(k);
+    const geometry::Box &space = scene.periodic->box, &box = *overlap.particleBox;
+    const bool below = box.lower[axis] <= space.lower[axis], above = box.upper[axis] >= space.upper[axis];
+    require(!scene.periodic->axes[k] || below == above, "particle_box goes across one side of the period",
+            "let it span the period, or end within it");
+  }
   require(scene.steps.lag == 0, "\"lag\" applies to surface couplings only", "leave steps.lag or the overlap out");
   require(!overlap.reachOut || overlap.absorber == 0.0, "the absorber cannot be used with kernels that reach outside",
           "leave kernel_reach or absorber out");
@@ -279,8 +286,10 @@ std::vector<double> overlapPlaces(const Overlap& overlap, std::span<const Vec3> 
 std::vector<double> overlapWeights(const Overlap& overlap, const fem::SolidMesh& mesh) {
   std::vector<double> place = overlapPlaces(overlap, mesh.X);
   for (double& s : place) s = s > 1.0 + 1e-9 ? arlequin::beyondOverlap : std::clamp(s, 0.0, 1.0);
-  return arlequin::nodalWeights(
+  std::vector<double> weight = arlequin::nodalWeights(
       place, {.profile = static_cast<arlequin::WeightProfile>(overlap.profile), .floor = overlap.floor});
+  arlequin::levelMidNodes(mesh, weight);
+  return weight;
 }
 
 void addCouplings(Built& built, const Scene& scene) {

@@ -64,14 +64,15 @@ fem::Formulation formulationOf(const std::string& word) {
 const fem::NewtonOptions newtonOfCells{
     .relativeTolerance = 1e-4, .lineSearch = false, .reuseContraction = 0.5, .mixing = 5};
 
-const Overlap* overlapWith(const Solid& solid, const Scene& scene) {
-  const Overlap* found = nullptr;
+/// The coupling that is an overlap with the solid; null: none.
+const Coupling* overlapWith(const Solid& solid, const Scene& scene) {
+  const Coupling* found = nullptr;
   for (const Coupling& coupling : scene.couplings) {
     const auto* const overlap = std::get_if<Overlap>(&coupling.kind);
     if (!overlap || coupling.solid != solid.name) continue;
     if (found)
       throw InputError("\"" + solid.name + "\" has two overlaps", coupling.where, "give every solid one at most");
-    found = overlap;
+    found = &coupling;
     atPlace(coupling.where, [&] { requireBorders(*overlap); });
   }
   return found;
@@ -232,7 +233,8 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
                           "\" has no coupling, so that grains pass through it: give it one, or leave it out.");
   requireSolver(solid, scene);
   if (isOfPoints(solid)) return addPoints(built, solid, scene);
-  const Overlap* const overlap = overlapWith(solid, scene);
+  const Coupling* const coupling = overlapWith(solid, scene);
+  const Overlap* const overlap = coupling ? &std::get<Overlap>(coupling->kind) : nullptr;
   const bool anyCells = std::ranges::any_of(materialsOf(solid), [](const auto* one) { return hasCells(*one); });
   if (overlap && anyCells)
     throw InputError("the cells of \"" + solid.name + "\" start under pressure, and an overlap bears none", "",
@@ -240,6 +242,7 @@ void add(Built& built, const Solid& solid, const Scene& scene) {
   built.meshes.push_back(meshOf(solid, built.notes));
   addSets(built.meshes.back(), solid);
   fem::SolidMesh& mesh = built.meshes.back();
+  if (coupling) atPlace(coupling->where, [&] { overlapPlaces(*overlap, mesh.X); });
   auto model = std::make_unique<fem::Model>(fem::makeModel(mesh));
   addElements(*model, mesh, solid, overlap, built, scene);
   if (const std::string elements = onRanks(*model); !elements.empty())

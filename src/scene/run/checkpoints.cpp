@@ -141,7 +141,9 @@ std::vector<TimeTaken> readTimes(const fs::path& folder, std::size_t stages) {
   if (!fs::exists(folder / timesFile, error)) return taken;
   try {
     const io::TimeSeries table = io::readCsv(folder / timesFile);
-    const auto wall = table.column("wall_s"), processor = table.column("processor_s");
+    // States of before have no time of the processors.
+    const bool both = std::ranges::find(table.names(), "processor_s") != table.names().end();
+    const auto wall = table.column("wall_s"), processor = table.column(both ? "processor_s" : "wall_s");
     for (std::size_t k = 0; k < std::min(stages, wall.size()); ++k)
       if (wall[k] >= 0.0 && processor[k] >= 0.0) taken[k] = {wall[k], processor[k]};
   } catch (const InputError&) {  // a run goes on without what only tells times

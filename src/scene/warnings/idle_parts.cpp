@@ -145,6 +145,8 @@ void lookAtOptions(const Scene& scene, Lines& lines) {
                  "there is no dashpot", lines);
       reportIdle(overlap->penalty.word.empty() && kind == arlequin::ConstraintKind::multiplier, of + "penalty",
                  "multipliers hold the gap", lines);
+      reportIdle(overlap->solidBox && overlap->axis != usual.axis, of + "axis", "the overlap lies between boxes",
+                 lines);
       const bool shaped = overlap->kernelShape != usual.kernelShape || overlap->normalised != usual.normalised;
       reportIdle(overlap->kernel == 0.0 && shaped, of + "kernel_shape or kernel_normalised", "there is no kernel",
                  lines);
@@ -260,37 +262,49 @@ void lookAtGaps(const Built& built, const Scene& scene, Lines& lines) {
                       rounded(0.1 * largest) + " m to bond neighbours.");
 }
 
-/// A solid as a whole; with a hole, in which another may move, its elements.
-std::vector<Extent> extentsOf(const Solid& solid, const fem::SolidMesh& mesh) {
+/// A solid as a whole, and with a hole, in which another may move, its elements.
+struct Body {
+  Extent whole;
+  std::vector<Extent> parts;
+};
+
+Body bodyOf(const Solid& solid, const fem::SolidMesh& mesh) {
+  Body body;
+  body.whole.add(mesh.X);
   const auto* const box = std::get_if<BoxMesh>(&solid.mesh);
-  std::vector<Extent> extents;
   if (!box || !box->hole) {
-    extents.emplace_back().add(mesh.X);
-    return extents;
+    body.parts = {body.whole};
+    return body;
   }
   for (const fem::ElementGroup& group : mesh.groups)
     for (std::size_t e = 0, n = static_cast<std::size_t>(fem::nodesOf(group.shape)); e < group.size(); ++e) {
-      std::vector<Vec3> nodes;
-      for (std::size_t a = 0; a < n; ++a) nodes.push_back(mesh.X[static_cast<std::size_t>(group.node[n * e + a])]);
-      extents.emplace_back().add(nodes);
+      Extent& part = body.parts.emplace_back();
+      for (std::size_t a = 0; a < n; ++a) part.add(mesh.X[static_cast<std::size_t>(group.node[n * e + a])]);
     }
-  return extents;
+  return body;
 }
 
-bool comesTo(const std::vector<Extent>& moving, const Vec3& velocity, const std::vector<Extent>& still, double time) {
-  return std::ranges::any_of(moving, [&](const Extent& a) {
-    return std::ranges::any_of(still, [&](const Extent& b) { return comesTo(a, velocity, b, time); });
+/// Looks only at parts that are near the other body.
+bool comesTo(const Body& moving, const Vec3& velocity, const Body& still, double time) {
+  if (!comesTo(moving.whole, velocity, still.whole, time)) return false;
+  std::vector<Extent> near;
+  for (const Extent& part : still.parts)
+    if (comesTo(moving.whole, velocity, part, time)) near.push_back(part);
+  return std::ranges::any_of(moving.parts, [&](const Extent& part) {
+    return comesTo(part, velocity, still.whole, time) &&
+           std::ranges::any_of(near, [&](const Extent& other) { return comesTo(part, velocity, other, time); });
   });
 }
 
 /// Extents say where they meet, and overlaps at the start are told elsewhere.
 void lookAtMeetings(const Built& built, const Scene& scene, Lines& lines) {
-  std::vector<std::vector<Extent>> bodies;
-  for (std::size_t s = 0; s < scene.solids.size(); ++s) bodies.push_back(extentsOf(scene.solids[s], built.meshes[s]));
+  std::vector<Body> bodies;
+  for (std::size_t s = 0; s < scene.solids.size(); ++s) bodies.push_back(bodyOf(scene.solids[s], built.meshes[s]));
   for (std::size_t j = 0; j < bodies.size(); ++j)
     for (std::size_t i = 0; i < j; ++i) {
       const Vec3 velocity = scene.solids[j].velocity - scene.solids[i].velocity;
-      if (comesTo(bodies[j], {}, bodies[i], 0.0) || !comesTo(bodies[j], velocity, bodies[i], durationOf(scene)))
+      if (norm(velocity) == 0.0 || comesTo(bodies[j], {}, bodies[i], 0.0) ||
+          !comesTo(bodies[j], velocity, bodies[i], durationOf(scene)))
         continue;
       lines.push_back(quoted(scene.solids[i].name) + " and " + quoted(scene.solids[j].name) +
                       " move into each other and will overlap: solids have contact with grains only. Change their "

@@ -46,8 +46,10 @@ double thicknessOf(const Overlap& overlap) {
   return least;
 }
 
-/// @param places  of the nodes, as overlapPlaces
-void addElements(Shared& shared, const fem::SolidMesh& mesh, std::span<const double> places, double thickness) {
+/// @param places    of the nodes, as overlapPlaces
+/// @param byVolume  whether sizes are those of cubes of the same volume
+void addElements(Shared& shared, const fem::SolidMesh& mesh, std::span<const double> places, double thickness,
+                 bool byVolume) {
   const fem::MeshQuality quality = fem::measureQuality(mesh, 0);
   constexpr double margin = 1e-6;
   std::size_t number = 0;
@@ -62,7 +64,7 @@ void addElements(Shared& shared, const fem::SolidMesh& mesh, std::span<const dou
       if (least < -margin || most > 1.0 + margin) continue;
       if (shared.elements++ == 0) shared.first = number;
       shared.volume += quality.element[number].volume;
-      shared.elementSize += thickness * (most - least);
+      shared.elementSize += byVolume ? std::cbrt(quality.element[number].volume) : thickness * (most - least);
     }
   }
   shared.elementSize /= static_cast<double>(std::max<std::size_t>(1, shared.elements));
@@ -93,7 +95,7 @@ Shared sharedPart(const Built& built, const arlequin::ArlequinCoupling& tie, con
     shared.diameter += 2.0 * r;
   }
   shared.diameter /= static_cast<double>(std::max<std::size_t>(1, shared.grains));
-  addElements(shared, mesh, places, thicknessOf(overlap));
+  addElements(shared, mesh, places, thicknessOf(overlap), overlap.solidBox.has_value());
   return shared;
 }
 
@@ -120,15 +122,30 @@ void lookAtBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const std:
 
 /// The solid ends at its border.
 void lookBeyondBorder(const fem::SolidMesh& mesh, const Overlap& overlap, const std::string& name, Lines& lines) {
-  const double margin = overlap.solidBox ? 0.1 : 0.5;  // of what both share
-  const auto count =
-      std::ranges::count_if(overlapPlaces(overlap, mesh.X), [&](double place) { return place < -margin; });
-  if (count > 0 && overlap.solidBox)
-    lines.push_back(std::to_string(count) + " nodes lie in solid_box of " + name +
-                    ", where the solid has no weight: give its mesh this box as \"hole\".");
-  else if (count > 0)
+  if (overlap.solidBox) return;
+  const auto count = std::ranges::count_if(overlapPlaces(overlap, mesh.X), [](double place) { return place < -0.5; });
+  if (count > 0)
     lines.push_back(std::to_string(count) + " nodes lie beyond solid_border of " + name + " along " +
                     "xyz"[overlap.axis] + ", where the solid has no weight: swap the two borders, or check the axis.");
+}
+
+/// The hole of the solid is the box at which it ends.
+void lookAtHole(const fem::SolidMesh& mesh, const Overlap& overlap, const std::string& name, Lines& lines) {
+  if (!overlap.solidBox) return;
+  constexpr double margin = 1e-6;
+  const std::vector<double> places = overlapPlaces(overlap, mesh.X);
+  const auto hole = mesh.nodeSets.find("hole");
+  const bool isThere = hole != mesh.nodeSets.end();
+  if (const auto count = std::ranges::count_if(places, [](double s) { return s < -margin; }); count > 0)
+    lines.push_back(std::to_string(count) + " nodes lie in solid_box of " + name + ", where the solid has no weight: " +
+                    (isThere ? "put the box on faces of elements." : "give its mesh this box as \"hole\"."));
+  double farthest = 0.0;
+  for (const int n : isThere ? hole->second : std::vector<int>{})
+    if (const double s = places[static_cast<std::size_t>(n)]; s < 1.0) farthest = std::max(farthest, s);
+  if (farthest > margin)
+    lines.push_back("The hole of the solid ends outside of solid_box of " + name + ", by up to " + rounded(farthest) +
+                    " of the way to particle_box, so that the weight of grains jumps there: put both on the same faces "
+                    "of elements.");
 }
 
 void lookAtPenalty(const Overlap& overlap, const SolidMaterial& material, double elementSize, const std::string& name,
@@ -149,6 +166,7 @@ void lookAtOverlap(const Built& built, const Scene& scene, std::size_t solid, co
   const Solid& file = scene.solids[solid];
   lookAtBorder(built.meshes[solid], overlap, "the overlap with " + quoted(file.name), lines);
   lookBeyondBorder(built.meshes[solid], overlap, "the overlap with " + quoted(file.name), lines);
+  lookAtHole(built.meshes[solid], overlap, "the overlap with " + quoted(file.name), lines);
   const Shared shared = sharedPart(built, **found, built.meshes[solid], overlap);
   const std::string name = "the overlap with " + quoted(file.name);
   if (shared.grains == 0 || shared.elements == 0) {
