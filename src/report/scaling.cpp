@@ -12,7 +12,7 @@ namespace dovetail::report {
 namespace {
 
 /// Beyond the largest size that was run, figures end at this multiple of it.
-constexpr double farthest = 10.0;
+constexpr double farthest = 4.0;
 
 double exponentBetween(const CostCurve& curve, std::size_t k) {
   return std::log(curve.seconds[k + 1] / curve.seconds[k]) / std::log(curve.size[k + 1] / curve.size[k]);

@@ -82,8 +82,8 @@ TEST(Scaling, FiguresGoOnBeyondWhatWasRun) {
   ASSERT_EQ(figure.curves.size(), 3u);
   EXPECT_EQ(figure.curves[2].like, 0u);
   EXPECT_TRUE(figure.curves[2].dashed);
-  EXPECT_NEAR(figure.curves[2].x[1], 80.0, 1e-12);
-  EXPECT_NEAR(figure.curves[2].y[1], 512000.0, 1e-6);
+  EXPECT_NEAR(figure.curves[2].x[1], 32.0, 1e-12);
+  EXPECT_NEAR(figure.curves[2].y[1], 32768.0, 1e-6);
   const std::string svg = svgOf(figure);
   EXPECT_NE(svg.find("class=\"dashed c0\""), std::string::npos);
   EXPECT_EQ(svg.find("class=\"dashed c2\""), std::string::npos);

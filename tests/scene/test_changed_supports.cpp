@@ -3,7 +3,7 @@
 
 #include "build/changes.hpp"
 #include "dovetail/coupling/rest.hpp"
-#include "scene_parts.hpp"
+#include "warning_parts.hpp"
 
 namespace dovetail::scene::test {
 namespace {
@@ -191,6 +191,11 @@ TEST(ChangedPlanes, GoAsThoseThatWereToldBefore) {
     EXPECT_LT(norm(byChange[n] - byTime[n]), 1e-12);
     EXPECT_LT(norm(further[n] - straight[n]), 1e-12);
   }
+}
+
+TEST(ChangedPlanes, ThatFlyAreTold) {
+  const Scene bar = barScene(R"({"on": "z-"})", pressedAt(R"("velocity": [0, 0, -50])"), planeOf(""));
+  expectParts(warningsOf(bar), {"stages.1.changes.planes.0 moves at up to 50 m/s"});
 }
 
 TEST(ChangedPlanes, ThatCannotBeAreRefused) {

@@ -81,6 +81,22 @@ void lookAtSpeeds(const std::string& list, const std::vector<Moved>& all, double
   }
 }
 
+constexpr double machine = 30.0, lid = 90.0;  // lids are thrown open; m/s
+
+/// What stages move.
+void lookAtSpeedsOf(const Changes& changes, const std::string& of, const Scene& scene, Lines& lines) {
+  std::vector<WallMotion> walls;
+  for (const WallChange& one : changes.walls) {
+    walls.emplace_back().velocity = one.velocity.value_or(TimeVector{});
+    walls.back().displacement = one.displacement;
+  }
+  std::vector<Support> supports;
+  for (const SupportChange& one : changes.supports) supports.push_back(one.support);
+  lookAtSpeeds(of + "walls", walls, lid, scene, lines);
+  lookAtSpeeds(of + "supports", supports, machine, scene, lines);
+  lookAtSpeeds(of + "planes", changes.planes, machine, scene, lines);
+}
+
 // ---- couplings
 
 bool isBefore(const Extent& grains, const geometry::Facet& facet, const std::vector<Vec3>& x) {
@@ -353,13 +369,15 @@ void lookAtFloors(const Built& built, const Scene& scene, Lines& lines) {
 void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines) {
   lookAtIdleRanks(built, lines);
   lookAtIdleWalls(built, scene, lines);
-  constexpr double machine = 30.0, lid = 90.0;  // lids are thrown open; m/s
   lookAtSpeeds("walls", scene.walls, lid, scene, lines);
   lookAtSpeeds("drives", scene.drives, machine, scene, lines);
   for (std::size_t s = 0; s < scene.solids.size(); ++s) {
     lookAtSpeeds(item("solids", s) + ".supports", scene.solids[s].supports, machine, scene, lines);
     lookAtSpeeds(item("solids", s) + ".planes", scene.solids[s].planes, machine, scene, lines);
   }
+  for (std::size_t k = 0; k < scene.stages.size(); ++k)
+    if (const auto& changes = scene.stages[k].changes)
+      lookAtSpeedsOf(*changes, item("stages", k) + ".changes.", scene, lines);
   lookAtFaces(built, scene, lines);
   lookAtOptions(scene, lines);
   lookAtClumps(scene, lines);

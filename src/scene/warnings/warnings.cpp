@@ -194,6 +194,7 @@ void lookForFreeSolids(const Built& built, const Scene& scene, std::size_t numbe
                            " has no supports and no gravity, so that grains that lie on it push it away: hold some of "
                            "its nodes.");
   if (!built.run->solid(number).mass || fem::dimensionOf(built.meshes[number]) == 2) return;  // not started, or a plane
+  if (touches) return;                                                                        // grains may hold it
   const std::size_t nodes = built.meshes[number].X.size();
   for (int k = 0; k < 3; ++k) {
     if (!isFreeAlong(built.run->solid(number).mass->dofs(), nodes, static_cast<std::size_t>(k))) continue;
