@@ -82,6 +82,7 @@ private:
     if (scene.kind != Node::Kind::object)
       refuse(item, file.string() + " holds " + nameOf(scene) + " where an object is expected", "write { … } there");
     requireKnownVersion(scene, file.string());
+    std::erase_if(scene.members, [](const auto& member) { return member.key == "version"; });  // is its own
     const auto own = std::make_shared<const fs::path>(file);
     forEachPlace(scene, [&](Place& place) { place.file = own; });
     chain_.push_back(same);

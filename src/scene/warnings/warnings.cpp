@@ -296,6 +296,7 @@ std::vector<std::string> warnings(const Built& built, const Scene& scene, bool s
   lookForContradictions(built, scene, lines);
   lookAtCompany(built, scene, lines);
   lookForIdleParts(built, scene, lines);
+  lookForMeetings(built, scene, lines);
   lookForFalling(built, scene, lines);
   if (starts) lookAtOutput(built, scene, lines);
   lookAtContacts(built, lines);

@@ -33,6 +33,8 @@ void lookAtRelations(const Built& built, const Scene& scene, Lines& lines);
 void lookAtCompany(const Built& built, const Scene& scene, Lines& lines);
 /// Items of a list that say the same, and loads, supports, drives and overlaps that undo each other.
 void lookForContradictions(const Built& built, const Scene& scene, Lines& lines);
+/// Solids and walls that move into each other.
+void lookForMeetings(const Built& built, const Scene& scene, Lines& lines);
 /// Walls, couplings and bonds that do nothing of use, and places against periods, other solids or themselves.
 void lookForIdleParts(const Built& built, const Scene& scene, Lines& lines);
 /// Grains that nothing keeps from falling while a stage relaxes.
