@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numeric>
 
@@ -15,17 +14,44 @@ namespace {
 
 std::string pointOf(const Json& row) { return row.value("point", row["label"].get<std::string>()); }
 
-Curve curveOf(const std::vector<StudyPoint>& points, const std::string& name,
-              const std::function<bool(const StudyPoint&)>& belongs) {
-  std::vector<StudyPoint> some;
-  std::ranges::copy_if(points, std::back_inserter(some), belongs);
-  std::ranges::stable_sort(some, {}, &StudyPoint::seconds);
-  Curve curve{name, {}, {}, true, true};
-  for (const StudyPoint& point : some) {
-    curve.x.push_back(point.seconds);
-    curve.y.push_back(point.error);
-    if (hasRepeats(points)) curve.ranges.push_back({point.lowest, point.highest});
+void add(const StudyPoint& point, bool hasRanges, Curve& curve) {
+  curve.x.push_back(point.seconds);
+  curve.y.push_back(point.error);
+  if (hasRanges) curve.ranges.push_back({point.lowest, point.highest});
+}
+
+/// Names of its places on all axes but the last.
+std::string placeOf(const StudyPoint& point) {
+  return point.point.substr(0, std::min(point.point.rfind(", "), point.point.size()));
+}
+
+/// A line joins the points that differ on the last axis alone.
+Curve curveOf(const std::vector<StudyPoint>& points, const std::string& way) {
+  Curve curve{way, {}, {}, true, true};
+  const StudyPoint* before = nullptr;
+  for (const StudyPoint& point : points) {
+    if (point.way != way) continue;
+    const bool several = point.point.find(", ") != std::string::npos;
+    if (before && several && placeOf(*before) != placeOf(point))
+      add({.seconds = std::nan(""), .error = std::nan(""), .lowest = std::nan(""), .highest = std::nan("")},
+          hasRepeats(points), curve);
+    add(point, hasRepeats(points), curve);
+    before = &point;
   }
+  return curve;
+}
+
+Curve frontOf(std::vector<StudyPoint> points) {
+  std::ranges::stable_sort(points, {}, &StudyPoint::seconds);
+  Curve curve{"front", {}, {}, true, true};
+  for (const StudyPoint& point : points)
+    if (point.onFront) add(point, false, curve);
+  return curve;
+}
+
+Curve runsOf(const std::vector<StudyPoint>& points) {
+  Curve curve{"runs", {}, {}, false, true};
+  for (const StudyPoint& point : points) add(point, hasRepeats(points), curve);
   return curve;
 }
 
@@ -61,12 +87,9 @@ Figure frontFigure(const std::vector<StudyPoint>& points, const Study& study, co
     if (std::ranges::find(ways, point.way) == ways.end()) ways.push_back(point.way);
   if (hasWays(points)) {
     for (const std::string& way : ways)
-      figure.curves.push_back(curveOf(points, way, [&](const StudyPoint& point) { return point.way == way; }));
+      figure.curves.push_back(curveOf(points, way));
   } else {
-    figure.curves = {curveOf(points, "runs", [](const StudyPoint&) { return true; }),
-                     curveOf(points, "front", [](const StudyPoint& point) { return point.onFront; })};
-    figure.curves.front().line = false;
-    figure.curves.back().ranges.clear();
+    figure.curves = {runsOf(points), frontOf(points)};
   }
   if (points.empty() || !whole.contains("scatter")) return figure;
   const auto [least, most] = std::ranges::minmax(points, {}, &StudyPoint::seconds);
