@@ -19,7 +19,7 @@ _Path = typing.Union[str, "os.PathLike[str]"]
 
 class Rows(typing.List[typing.Dict[str, typing.Any]]):
     """Rows of a study, a dict a run: values of the keys, `outcome` (finished, not stable, broke down, refused),
-    `message`, `wall_seconds`, and figures; `folder` where the run has files."""
+    `message`, `wall_seconds`, `processor_seconds`, and figures; `folder` where the run has files."""
 
     def column(self, name: str) -> NDArray[typing.Any]:
         """Values of all rows as an array; NaN where a row has none."""

@@ -86,8 +86,7 @@ Figure frontFigure(const std::vector<StudyPoint>& points, const Study& study, co
   for (const StudyPoint& point : points)
     if (std::ranges::find(ways, point.way) == ways.end()) ways.push_back(point.way);
   if (hasWays(points)) {
-    for (const std::string& way : ways)
-      figure.curves.push_back(curveOf(points, way));
+    for (const std::string& way : ways) figure.curves.push_back(curveOf(points, way));
   } else {
     figure.curves = {runsOf(points), frontOf(points)};
   }

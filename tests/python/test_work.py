@@ -43,7 +43,7 @@ class Studies(unittest.TestCase):
             self.assertEqual([row["label"] for row in rows], [row["label"] for row in there])
             for row, other in zip(rows, there):
                 for name, value in other.items():
-                    if name not in ("settings", "wall_seconds", "on_front"):
+                    if name not in ("settings", "wall_seconds", "processor_seconds", "on_front"):
                         self.assertEqual(row[name], value, name)
                 self.assertEqual(row["outcome"], "finished")
             self.assertEqual([(row["restitution"], row["steps.dt"]) for row in rows],

@@ -32,7 +32,7 @@ void count(std::vector<int>& numbers) {
 }
 
 /// Fills the groups of what is left, with the old numbers of the nodes.
-Numbers leaveOut(const SolidMesh& mesh, const Place& place, SolidMesh& left) {
+Numbers leaveOut(const SolidMesh& mesh, const std::function<bool(const Vec3&)>& place, SolidMesh& left) {
   Numbers numbers{{}, std::vector<int>(mesh.X.size(), -1)};
   for (const ElementGroup& group : mesh.groups) {
     const auto n = static_cast<std::size_t>(nodesOf(group.shape));
@@ -101,7 +101,7 @@ void dropEmpty(auto& sets) {
 
 }  // namespace
 
-SolidMesh withHole(const SolidMesh& mesh, const Place& place) {
+SolidMesh withHole(const SolidMesh& mesh, const std::function<bool(const Vec3& X)>& place) {
   if (mesh.nodeSets.contains(setOfHole) || mesh.faceSets.contains(setOfHole))
     throw InputError("the mesh has a set \"hole\"", "withHole", "rename it");
   SolidMesh left;

@@ -10,6 +10,7 @@
 #include "dovetail/fem/elements/solid.hpp"
 #include "dovetail/fem/laws/materials.hpp"
 #include "dovetail/fem/laws/point_laws.hpp"
+#include "dovetail/fem/mesh/mesh_places.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "dovetail/fem/terms/gradient_energy.hpp"
 #include "dovetail/fem/terms/loads.hpp"

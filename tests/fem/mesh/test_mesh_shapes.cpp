@@ -4,6 +4,7 @@
 
 #include "dovetail/core/error.hpp"
 #include "dovetail/fem/mesh/cell_topology.hpp"
+#include "dovetail/fem/mesh/mesh_places.hpp"
 #include "dovetail/fem/mesh/mesh_quality.hpp"
 #include "dovetail/fem/mesh/mesh_shapes.hpp"
 #include "face_integrals.hpp"

@@ -9,7 +9,6 @@
 #include <functional>
 #include <span>
 
-#include "dovetail/fem/mesh/mesh_places.hpp"
 #include "dovetail/fem/mesh/solid_mesh.hpp"
 
 namespace dovetail::fem {
@@ -29,7 +28,7 @@ SolidMesh joinMeshes(std::span<const SolidMesh> parts, double tolerance);
 /// element then. What is left keeps its order; sets lose what is gone, and are left out if nothing stays. Faces that
 /// are bared are the set "hole", with their nodes, and belong to "skin" if there is one.
 /// @throws InputError if no element or all of them lie there, or there is a set "hole"
-SolidMesh withHole(const SolidMesh& mesh, const Place& place);
+SolidMesh withHole(const SolidMesh& mesh, const std::function<bool(const Vec3& X)>& place);
 
 /// The same mesh of second order with straight edges: tet4 becomes tet10, quad4 quad8, hex8 hex20, or hex27 if
 /// `fullBricks`.
