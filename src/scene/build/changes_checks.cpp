@@ -91,7 +91,7 @@ void requireSupports(const Built& built, const Scene& scene, const SupportChange
   change(supports[s], one, since, nullptr);
   fem::Model model = fem::makeModel(mesh);
   const auto jumps = putHolders(model, mesh, scene.solids[s], scene, stepOf(*built.run), supports[s]);
-  if (one.present && jumps.size() > 0 && jumps.back().find(supports[s].back().name) != std::string::npos)
+  if (one.present && !jumps.empty() && jumps.back().find(supports[s].back().name) != std::string::npos)
     throw InputError("the support on \"" + own.on + "\" moves nodes at once as the stage begins", one.where,
                      "let its displacement start at 0, such as \"0.1*min(t/T, 1)\": t counts from there");
 }
