@@ -1,17 +1,13 @@
 #include "changes.hpp"
 
 #include <algorithm>
-#include <map>
-#include <set>
 
 #include "changed_parts.hpp"
 #include "dovetail/core/error.hpp"
-#include "law_kinds.hpp"
 #include "parts.hpp"
 #include "supports.hpp"
 #include "time_functions.hpp"
 #include "wall_motion.hpp"
-#include "warnings/warnings.hpp"
 
 namespace dovetail::scene {
 
