@@ -25,6 +25,13 @@ std::string placeOf(const StudyPoint& point) {
   return point.point.substr(0, std::min(point.point.rfind(", "), point.point.size()));
 }
 
+/// A point of no number ends a line.
+StudyPoint gap() {
+  StudyPoint point;
+  point.seconds = point.error = point.lowest = point.highest = std::nan("");
+  return point;
+}
+
 /// A line joins the points that differ on the last axis alone.
 Curve curveOf(const std::vector<StudyPoint>& points, const std::string& way) {
   Curve curve{way, {}, {}, true, true};
@@ -32,9 +39,7 @@ Curve curveOf(const std::vector<StudyPoint>& points, const std::string& way) {
   for (const StudyPoint& point : points) {
     if (point.way != way) continue;
     const bool several = point.point.find(", ") != std::string::npos;
-    if (before && several && placeOf(*before) != placeOf(point))
-      add({.seconds = std::nan(""), .error = std::nan(""), .lowest = std::nan(""), .highest = std::nan("")},
-          hasRepeats(points), curve);
+    if (before && several && placeOf(*before) != placeOf(point)) add(gap(), hasRepeats(points), curve);
     add(point, hasRepeats(points), curve);
     before = &point;
   }
