@@ -78,7 +78,7 @@ void PairsApart::take(const Particles& all, const PairList& from, std::size_t fi
   particles.f.assign(2 * count, {});
   for (std::size_t k = 0; k < count; ++k) particles.x[2 * k + 1] -= from.shift(first + k);
   if (!from.factors().empty()) std::copy_n(from.factors().data() + first, count, list.writeFactors().begin());
-  const std::span<double> numbers = list.prepareMemory(memory, 0);
+  const std::span<double> numbers = list.prepareMemory(memory, 0, from.memoryKind());
   for (std::size_t c = 0; c < static_cast<std::size_t>(memory); ++c)
     for (std::size_t k = 0; k < count; ++k) numbers[c * count + k] = from.memory()[c * from.size() + first + k];
 }

@@ -34,8 +34,8 @@ using detail::PairParts;
 template <class Archive, class List>
 void archiveParts(Archive& archive, List& l) {
   archive(l.skin, l.periodicity, l.pairs, l.builds, l.revision, l.innerSkin, l.candidates, l.innerTravel,
-          l.positionAtPruning, l.updatesSincePruning, l.images, l.factors, l.memory, l.turns, l.motion, l.motionTurns,
-          l.ended.memory, l.ended.pairs, l.positionAtBuild, l.particleRevision, l.wraps, l.travel);
+          l.positionAtPruning, l.updatesSincePruning, l.images, l.factors, l.memory, l.turns, l.memoryKind, l.motion,
+          l.motionTurns, l.ended.memory, l.ended.pairs, l.positionAtBuild, l.particleRevision, l.wraps, l.travel);
 }
 
 void require(bool holds, const char* otherwise) {

@@ -51,8 +51,13 @@ std::span<double> PairList::writeFactors() {
   return parts_.factors;
 }
 
-std::span<double> PairList::prepareMemory(int numbers, unsigned turns) {
+std::span<double> PairList::prepareMemory(int numbers, unsigned turns, unsigned kind) {
   parts_.turns = turns;
+  if (parts_.memoryKind != kind) {
+    parts_.memoryKind = kind;
+    parts_.memory.clear();
+    parts_.ended = {};
+  }
   const std::size_t needed = static_cast<std::size_t>(numbers) * size();
   if (parts_.memory.size() != needed) parts_.memory.assign(needed, 0.0);
   return parts_.memory;

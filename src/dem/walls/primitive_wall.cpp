@@ -168,11 +168,12 @@ void carryPart(const Particles& particles, PrimitiveContacts& contacts, std::siz
 
 }  // namespace
 
-EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory) {
+EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory,
+                          const WallMemoryKind& kind) {
   constexpr std::size_t chunkSize = 1024;
   const auto components = static_cast<std::size_t>(memory);
   const std::size_t old = contacts.oldParticle.size();
-  startAnewIfOfAnother(memory, old, contacts.oldMemory);
+  readAs(kind, memory, old, contacts.memoryKind, contacts.oldMemory);
   contacts.memory.resize(components * contacts.size());
   EndedMemories ended;
   if (old == 0) {

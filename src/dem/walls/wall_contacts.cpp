@@ -41,9 +41,17 @@ void findWallContacts(const Particles& particles, const TriangulatedWall& wall, 
 
 namespace detail {
 
-void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered) {
-  const auto components = static_cast<std::size_t>(memory);
-  if (remembered.size() != components * contacts) remembered.assign(components * contacts, 0.0);
+void readAs(const WallMemoryKind& kind, int memory, std::size_t contacts, WallMemoryKind& of,
+            std::vector<double>& remembered) {
+  const auto numbers = static_cast<std::size_t>(memory), springs = static_cast<std::size_t>(memory - kind.velocities);
+  const WallMemoryKind before = std::exchange(of, kind);
+  if (before == kind && remembered.size() == numbers * contacts) return;
+  const std::size_t numbersBefore = springs + static_cast<std::size_t>(before.velocities);
+  const bool stay =
+      before.velocities >= 0 && before.springs == kind.springs && remembered.size() == numbersBefore * contacts;
+  const std::vector<double> old = std::exchange(remembered, std::vector<double>(numbers * contacts, 0.0));
+  for (std::size_t c = 0; stay && c < contacts; ++c)
+    for (std::size_t m = 0; m < springs; ++m) remembered[c * numbers + m] = old[c * numbersBefore + m];
 }
 
 void forgetVelocities(std::vector<double>& memory, std::size_t contacts, int springs) {
@@ -68,6 +76,7 @@ double renumber(WallContacts& contacts, std::span<const int> newNumber) {
   WallSprings& springs = contacts.springs;
   WallSprings old = std::move(springs);
   springs = {};
+  springs.memoryKind = old.memoryKind;
   const std::size_t count = old.particle.size(), components = count == 0 ? 0 : old.memory.size() / count;
   std::vector<std::pair<int, std::size_t>> kept;
   for (std::size_t c = 0; c < count; ++c)

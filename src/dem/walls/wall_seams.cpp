@@ -112,7 +112,8 @@ bool has(const std::vector<int>& particle, const std::vector<Vec3>& normal, int 
 /// What contacts of `from` remember of a particle that go on as contacts of `to`.
 void handOver(WallContacts& from, WallContacts& to, int i) {
   WallSprings& old = from.springs;
-  if (old.memory.size() * to.springs.particle.size() != to.springs.memory.size() * old.particle.size()) return;
+  if (to.springs.particle.empty()) to.springs.memoryKind = old.memoryKind;
+  if (to.springs.memoryKind != old.memoryKind) return;
   const auto [begin, end] = std::equal_range(old.particle.begin(), old.particle.end(), i);
   const auto first = static_cast<std::size_t>(begin - old.particle.begin());
   for (auto o = static_cast<std::size_t>(end - old.particle.begin()); o-- > first;) {

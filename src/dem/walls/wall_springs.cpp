@@ -32,10 +32,10 @@ std::size_t bestMatch(const WallContacts& contacts, std::size_t c, std::size_t b
 
 void requireStep(double dt) { requirePositive(dt, "time step of a law with memory"); }
 
-EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory) {
+EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory, const WallMemoryKind& kind) {
   WallSprings& springs = contacts.springs;
   const auto components = static_cast<std::size_t>(memory);
-  startAnewIfOfAnother(memory, springs.particle.size(), springs.memory);
+  readAs(kind, memory, springs.particle.size(), springs.memoryKind, springs.memory);
   springs.next.assign(components * contacts.size(), 0.0);
   springs.successor.assign(springs.particle.size(), -1);
   forParticleRuns(contacts.particle, [&](std::size_t first, std::size_t last) {

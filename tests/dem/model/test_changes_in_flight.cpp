@@ -1,6 +1,7 @@
 // Laws, walls and particles that change between steps; terms that enter within one; models that lack something.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <string>
 
@@ -101,6 +102,54 @@ TEST(ChangesInFlight, WhatOtherLawsRememberedIsForgottenNotMistaken) {
     run(m, 1e-4, 1);
     for (const Vec3& v : m.particles.v) EXPECT_NEAR(v.x, 0.0, 1e-12) << triangles;  // springs start without stretch
   }
+}
+
+/// Three numbers per contact with a wall are velocities to the first law and a spring to the second.
+TEST(ChangesInFlight, VelocitiesOfWallContactsAreNotTakenForSprings) {
+  for (const bool triangles : {false, true}) {
+    Model m = onSlope(triangles);
+    m.laws = makeContactLaws(ElasticLaw{{1e4, 0.5}});
+    run(m, 1e-4, 300);
+    ASSERT_GT(m.particles.v[0].x, 0.01);
+    m.laws = makeContactLaws(FrictionalLaw{{1e4}, {3e3, 0.4}, {}, {}});
+    findForces(m);
+    EXPECT_LT(m.work.tangentialEnergy, 1e-100) << triangles;
+    EXPECT_EQ(m.booked.lost.frictionPower, 0.0) << triangles;
+  }
+}
+
+TEST(ChangesInFlight, SpringsStayWhenDashpotsComeOrGo) {
+  const std::array laws{makeContactLaws(rough()), makeContactLaws(FrictionalLaw{{1e4}, {3e3, 0.4}, {}, {}})};
+  for (const bool triangles : {false, true}) {
+    Model m = onSlope(triangles);
+    addParticle(m.particles, {0.15, 0.15, 0.2985}, {0.0, 0.01, 0.0}, 0.1, Mass{1.0});  // on the first
+    m.laws = laws[0];
+    run(m, 1e-4, 300);
+    const double before = m.work.tangentialEnergy;
+    ASSERT_GT(before, 1e-7);
+    for (const std::size_t next : {1, 0}) {
+      m.laws = laws[next];
+      findForces(m);
+      EXPECT_NEAR(m.work.tangentialEnergy, before, 1e-12 * before) << triangles << next;
+    }
+  }
+}
+
+/// Springs against sliding and against rolling take as many numbers.
+TEST(ChangesInFlight, SpringsOfOnePartAreNotTakenForThoseOfAnother) {
+  using Rolling = ContactLaw<LinearSpringDashpot, NoTangential, RollingAndTwisting>;
+  static_assert(Rolling::memory != FrictionalLaw::memory || Rolling::memoryKind != FrictionalLaw::memoryKind);
+  static_assert(ContactLaw<LinearSpringDashpot>::memoryKind == 0);
+  PairList list;
+  Particles particles;
+  for (const double x : {0.0, 1.9}) addParticle(particles, {x, 0, 0}, {}, 1.0, Mass{1.0});
+  findPairs(particles, list);
+  const auto fill = [&](unsigned kind) {
+    for (double& number : list.prepareMemory(3, 7, kind)) number = 1.0;
+  };
+  fill(FrictionalLaw::memoryKind);
+  EXPECT_EQ(list.prepareMemory(3, 7, FrictionalLaw::memoryKind)[0], 1.0);
+  EXPECT_EQ(list.prepareMemory(3, 7, FrictionalLaw::memoryKind << 4)[0], 0.0);
 }
 
 TEST(ChangesInFlight, WallsThatComeLaterAreChecked) {

@@ -45,7 +45,7 @@ TEST(PairList, ContactsSurviveThatPositionsAreWrapped) {
   friction->pairs(particles, list, 1e-3, Booking::on);
   const double force = particles.f[0].x;
   EXPECT_NEAR(force, 1e3 * (0.2 - 0.19), 1e-9);
-  std::ranges::copy(std::array{1e-4, 2e-4, 3e-4}, list.prepareMemory(3, 0).begin());
+  std::ranges::copy(std::array{1e-4, 2e-4, 3e-4}, list.prepareMemory(3, 0, FrictionalLaw::memoryKind).begin());
   list.writeFactors()[0] = 0.5;
   particles.x[0].x += 3.0;
   particles.x[1].x -= 1.0;
@@ -152,7 +152,7 @@ TEST(PairList, WhatLeaversHoldIsBookedWithTheirMaterials) {
   findPairs(particles, list);
   const double dt = 1e-4;
   laws->pairs(particles, list, dt, Booking::on);
-  const std::span<double> memory = list.prepareMemory(3, 0);
+  const std::span<double> memory = list.prepareMemory(3, 0, FrictionalLaw::memoryKind);
   std::ranges::fill(memory, 0.0);
   memory[3] = 1e-3;  // y of the second pair
   clearForces(particles);

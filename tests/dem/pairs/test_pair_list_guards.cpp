@@ -86,11 +86,11 @@ TEST(PairListGuards, NewPairsKnowOfNoMotionAndOldOnesKeepTheirs) {
 
 TEST(PairListGuards, SelectedPairsHandBackWhatTheyRemember) {
   Block b(0.01);
-  b.list.prepareMemory(2, 0);
+  b.list.prepareMemory(2, 0, 0);
   const std::vector<std::size_t> places{3, b.list.size() - 1};
   PairList some = selectPairs(b.particles, b.list, places);
   EXPECT_THROW(b.list.takeMemory(places, some), InputError);  // which has none yet
-  const std::span<double> memory = some.prepareMemory(2, 0);
+  const std::span<double> memory = some.prepareMemory(2, 0, 0);
   for (std::size_t k = 0; k < memory.size(); ++k) memory[k] = 1.0 + static_cast<double>(k);
   EXPECT_THROW(b.list.takeMemory(std::vector<std::size_t>{3}, some), InputError);
   b.list.takeMemory(places, some);
@@ -116,7 +116,7 @@ PairList loaded(const std::vector<char>& bytes) {
 
 TEST(PairListGuards, AListIsReadAsItWasWritten) {
   Block b(0.01);
-  b.list.prepareMemory(3, 7);
+  b.list.prepareMemory(3, 7, 0);
   b.list.writeFactors()[2] = 0.5;
   EXPECT_GT(b.list.candidates().size(), b.list.size());
   const PairList read = loaded(saved(b.list));
@@ -132,7 +132,7 @@ TEST(PairListGuards, AListIsReadAsItWasWritten) {
 
 TEST(PairListGuards, WhatIsNoListIsRefused) {
   Block b(0.01);
-  b.list.prepareMemory(3, 7);
+  b.list.prepareMemory(3, 7, 0);
   b.list.writeFactors()[2] = 0.5;
   const auto refuses = [&](auto&& spoil) {
     PairList broken = b.list;

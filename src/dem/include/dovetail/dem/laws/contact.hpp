@@ -10,6 +10,13 @@ namespace dovetail::dem {
 /// force, v₊ + ½(v₊ − v₋), as the loop over contacts knows those of the half steps before it, v₊ and v₋.
 enum class Recall { nothing, approach, motion };
 
+/// What the numbers mean that a contact with a wall remembers.
+struct WallMemoryKind {
+  unsigned springs = 0;  ///< ContactLaw::memoryKind
+  int velocities = 0;    ///< how many follow behind the springs
+  friend bool operator==(const WallMemoryKind&, const WallMemoryKind&) = default;
+};
+
 /// Two bodies in contact: particle and partner (a particle, or a wall that counts as infinitely heavy and flat).
 /// Velocities are those of this instant, where the law's dashpots say so (PreparedParts::recall), else those of the
 /// half step before.

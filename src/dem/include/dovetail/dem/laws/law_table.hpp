@@ -32,6 +32,7 @@ struct PreparedLaws {
   /// Numbers that a contact with a wall remembers, velocities included. Its normal turns as the wall goes and bends, so
   /// velocities are kept whole.
   int wallNumbers() const { return Law::memory + (recall() == Recall::nothing ? 0 : Law::recalled(Recall::motion)); }
+  WallMemoryKind wallMemoryKind() const { return {Law::memoryKind, wallNumbers() - Law::memory}; }
   bool usesMass() const {
     for (const auto& law : table)
       if (law.usesMass()) return true;

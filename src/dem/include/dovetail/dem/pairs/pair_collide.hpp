@@ -177,7 +177,7 @@ template <class Law>
 ContactWork collide(Particles& particles, PairList& list, const PreparedLaws<Law>& laws, double dt, Booking booking) {
   if constexpr (Law::memory > 0) requireStep(dt);
   const Recall recall = laws.recall();
-  list.prepareMemory(Law::memory, Law::turns);  // what another law has left is forgotten
+  list.prepareMemory(Law::memory, Law::turns, Law::memoryKind);  // what another law has left is forgotten
   list.prepareMotion(Law::recalled(recall), recall == Recall::motion);
   PairParts& parts = partsOf(list);
   PairRows rows{.spins = Law::rotates,

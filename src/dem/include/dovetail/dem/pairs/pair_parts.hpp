@@ -90,6 +90,7 @@ struct PairBelongings {
   RawVector<double> factors;  ///< one per pair; empty = 1
   RawVector<double> memory;   ///< number c of pair p is memory[c * pairs.size() + p]
   unsigned turns = 0;         ///< of the law that last used the memory: see laws.hpp
+  unsigned memoryKind = 0;    ///< of the same law
   RawVector<double> motion;   ///< of velocities of the last step, by component as memory: see Recall
   bool motionTurns = false;   ///< they change their signs when the two particles change roles
   EndedPairs ended;           ///< whom nobody has booked yet

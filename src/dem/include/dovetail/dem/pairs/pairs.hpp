@@ -93,9 +93,10 @@ public:
   /// Memory of the contacts, by component: number c of pair p is memory()[c * size() + p]. A tangential spring takes
   /// three numbers, its stretch, m. Empty unless the law has memory.
   const RawVector<double>& memory() const { return parts_.memory; }
-  /// The same for writing, with room for the memories of a law: all zero if they were of another size.
-  /// @param numbers per pair @param turns see laws.hpp
-  std::span<double> prepareMemory(int numbers, unsigned turns);
+  /// The same for writing, with room for the memories of a law: all zero if they were of another size or kind.
+  /// @param numbers per pair @param turns, kind see laws.hpp
+  std::span<double> prepareMemory(int numbers, unsigned turns, unsigned kind);
+  unsigned memoryKind() const { return parts_.memoryKind; }  ///< ContactLaw::memoryKind
   /// How contacts moved in the last step, for dashpots (see Recall), by component as memory(), m/s and rad/s.
   const RawVector<double>& motion() const { return parts_.motion; }
   /// Makes room for it: all zero, which means unknown, if it was of another size.

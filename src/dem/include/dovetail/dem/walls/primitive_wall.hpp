@@ -23,6 +23,7 @@ struct PrimitiveContacts {
   std::vector<double> energy;       ///< of the normal springs, J; if booked
   std::vector<double> sideEnergy;   ///< of those that the law remembers
   std::vector<double> memory;       ///< of the law, contact by contact
+  WallMemoryKind memoryKind;
   /// Only where space repeats: which image of the particle touches; and the periods, m.
   std::vector<Image> image;
   Vec3 period;
@@ -133,7 +134,8 @@ inline WallFraction fractionOf(const PrimitiveContacts& contacts, std::size_t c)
 
 namespace detail {
 /// Memories from the last step to this one; returns those whose contact has ended.
-EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory);
+EndedMemories carryMemory(const Particles& particles, PrimitiveContacts& contacts, int memory,
+                          const WallMemoryKind& kind);
 /// Velocity of the particle relative to the wall at the contact, m/s.
 Vec3 relativeVelocity(const Particles& particles, const PrimitiveWall& wall, std::size_t c, bool spins);
 /// Adds the contact forces (and torques) to the particles, and their reactions up over the wall.
@@ -158,7 +160,7 @@ ContactWork collide(Particles& particles, PrimitiveWall& wall, const PreparedLaw
   if constexpr (Law::rotates) contacts.couple.resize(contacts.size());
   if constexpr (Law::memory > 0) requireStep(dt);
   if (const int numbers = laws.wallNumbers(); numbers > 0) {
-    const EndedMemories ended = carryMemory(particles, contacts, numbers);
+    const EndedMemories ended = carryMemory(particles, contacts, numbers, laws.wallMemoryKind());
     if (booking == Booking::on && dt > 0.0) work += bookEnded<Law>(ended, laws, wall.material, dt);
   } else {
     contacts.memory.clear();  // of a law that was there before

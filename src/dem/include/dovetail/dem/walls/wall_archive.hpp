@@ -15,7 +15,8 @@ void archiveWall(Archive& archive, Wall& w) {
   archive(s.near, s.margin, s.builds, s.particleRevision, s.point, s.axis, s.radius, s.extent, s.smallestRadius,
           s.travel, s.lastPoint, s.lastAxis);
   if (w.servo) archive(*w.servo);
-  archive(c.particle, c.normal, c.overlap, c.force, c.couple, c.memory, c.image, c.period, c.energy, c.sideEnergy);
+  archive(c.particle, c.normal, c.overlap, c.force, c.couple, c.memory, c.memoryKind, c.image, c.period, c.energy,
+          c.sideEnergy);
 }
 
 template <class Archive, class Candidates>
@@ -29,7 +30,7 @@ void archiveCandidates(Archive& archive, Candidates& c) {
 template <class Archive, class Contacts>
 void archiveContacts(Archive& archive, Contacts& c) {
   auto& s = c.springs;
-  archive(s.particle, s.normal, s.memory, s.fraction);
+  archive(s.particle, s.normal, s.memory, s.memoryKind, s.fraction);
   archive(c.particle, c.facet, c.weight, c.normal, c.overlap, c.engagement, c.energyFraction, c.force, c.couple,
           c.energy, c.sideEnergy, c.image, c.period);
 }

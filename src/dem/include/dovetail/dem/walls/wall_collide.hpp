@@ -17,7 +17,7 @@ inline constexpr double samePlace = 0.9;
 /// Fills contacts.springs.next with the memories carried over from the last step, from the nearest normal at the same
 /// place. Returns those of contacts that have ended, and of contacts that act with
 /// another fraction now what they have less of it.
-EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory);
+EndedMemories carrySprings(const Particles& particles, WallContacts& contacts, int memory, const WallMemoryKind& kind);
 /// Remembers the contacts and what they remember for the next step.
 void keepSprings(WallContacts& contacts);
 
@@ -41,7 +41,7 @@ ContactWork collide(Particles& particles, const TriangulatedWall& wall, WallCont
   ContactWork work;
   if constexpr (Law::memory > 0) requireStep(dt);
   if (const int numbers = laws.wallNumbers(); numbers > 0) {
-    const EndedMemories ended = carrySprings(particles, contacts, numbers);
+    const EndedMemories ended = carrySprings(particles, contacts, numbers, laws.wallMemoryKind());
     if (booking == Booking::on && dt > 0.0) work += bookEnded<Law>(ended, laws, wall.material, dt);
   } else {
     contacts.springs = {};  // of a law that was there before

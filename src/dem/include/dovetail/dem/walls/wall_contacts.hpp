@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "dovetail/dem/laws/contact.hpp"
 #include "dovetail/dem/particles/particles.hpp"
 #include "dovetail/dem/walls/ended_memories.hpp"
 #include "dovetail/dem/walls/wall.hpp"
@@ -27,7 +28,8 @@ enum class EdgeRule {
 struct WallSprings {
   std::vector<int> particle;
   std::vector<Vec3> normal;
-  std::vector<double> memory;    ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
+  std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
+  WallMemoryKind memoryKind;
   std::vector<double> fraction;  ///< engagement
 
   std::vector<double> next;    // those of this step, while they are being worked out
@@ -156,9 +158,12 @@ double energyOfLeavers(Contacts& contacts, std::span<const int> newNumber) {
   }
   return sum;
 }
-/// Contacts with memory of another size, as of a previous law, start anew.
-/// @param memory numbers per contact
-void startAnewIfOfAnother(int memory, std::size_t contacts, std::vector<double>& remembered);
+/// What contacts remember becomes of the kind of the present law: springs stay if they mean the same, else they start
+/// anew, and velocities that were not remembered are unknown, which is zero.
+/// @param memory  numbers per contact
+/// @param of      the kind that it was
+void readAs(const WallMemoryKind& kind, int memory, std::size_t contacts, WallMemoryKind& of,
+            std::vector<double>& remembered);
 /// Sets what contacts remember behind their springs to zero.
 void forgetVelocities(std::vector<double>& memory, std::size_t contacts, int springs);
 /// Stores the memory of a contact that has ended. @param fraction  of the contact, or what it has less of it now
