@@ -72,7 +72,8 @@ void PairList::prepareMotion(int numbers, bool turns) {
 void PairList::forgetMotion() { std::fill(parts_.motion.begin(), parts_.motion.end(), 0.0); }
 
 void PairList::takeMemory(std::span<const std::size_t> places, const PairList& from) {
-  if (places.size() != from.size() || parts_.memory.size() * from.size() != from.memory().size() * size())
+  if (places.size() != from.size() || parts_.memory.size() * from.size() != from.memory().size() * size() ||
+      (from.size() > 0 && parts_.memoryKind != from.memoryKind()))
     throw InputError(std::to_string(from.memory().size()) + " numbers of memory of " + std::to_string(from.size()) +
                          " pairs do not fit into " + std::to_string(places.size()) + " places of " +
                          std::to_string(size()) + " pairs with " + std::to_string(parts_.memory.size()) + " numbers",
