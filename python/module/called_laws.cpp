@@ -116,7 +116,8 @@ dem::ContactWork CalledLaws::wall(dem::Particles& particles, dem::PrimitiveWall&
   const std::shared_ptr<Batch> batch = room();
   contacts.force.resize(contacts.size());
   if (law_.rotates) contacts.couple.resize(contacts.size());
-  const double ended = powerOf(law_, dem::detail::carryMemory(particles, contacts, law_.numbers()), dt);
+  const double ended =
+      powerOf(law_, dem::detail::carryMemory(particles, contacts, law_.numbers(), law_.wallMemoryKind()), dt);
   const bool spins = law_.rotates && particles.rotates();
   dem::ContactWork work = answerWall(law_, particles, contacts, contacts.memory, {.material = wall.material}, dt,
                                      booking, dem::detail::AgainstPrimitive{particles, wall, spins}, *batch,
@@ -130,7 +131,8 @@ dem::ContactWork CalledLaws::wall(dem::Particles& particles, const dem::Triangul
                                   dem::WallContacts& contacts, double dt, dem::Booking booking) const {
   dem::detail::requireStep(dt);
   const std::shared_ptr<Batch> batch = room();
-  const double ended = powerOf(law_, dem::detail::carrySprings(particles, contacts, law_.numbers()), dt);
+  const double ended =
+      powerOf(law_, dem::detail::carrySprings(particles, contacts, law_.numbers(), law_.wallMemoryKind()), dt);
   if (law_.rotates) contacts.couple.assign(contacts.size(), Vec3{});
   const bool spins = law_.rotates && particles.rotates();
   dem::ContactWork work = answerWall(law_, particles, contacts, contacts.springs.next, {wall.material, wall.mass}, dt,

@@ -223,7 +223,7 @@ void keepEnergies(const LawTraits& law, Batch& batch) {
 dem::ContactWork answerPairs(const LawTraits& law, dem::Particles& particles, dem::PairList& list, double dt,
                              dem::Booking booking, Batch& batch, const Ask& ask) {
   dem::detail::requireStep(dt);
-  list.prepareMemory(law.kept(), law.turns());
+  list.prepareMemory(law.kept(), law.turns(), law.memoryKind());
   list.prepareMotion(law.numbers() - law.kept(), true);
   PairParts& pairs = dem::detail::partsOf(list);
   const Sweep sweep{law, particles, pairs, rowsFor(law, particles, pairs), dt, batch};

@@ -28,6 +28,9 @@ struct LawTraits {
   /// With velocity and spin of the last step.
   int numbers() const { return kept() + (damps ? 6 : 0); }
   unsigned turns() const;  ///< see laws.hpp
+  /// Numbers of which none but their own law knows what they mean: none of the kinds of ContactLaw, in 16 bits.
+  unsigned memoryKind() const { return 1u << 16 | static_cast<unsigned>(kept()); }
+  dem::WallMemoryKind wallMemoryKind() const { return {memoryKind(), numbers() - kept()}; }
 };
 
 /// Contacts of a sweep by columns: number c of contact k is given[c * count + k].
