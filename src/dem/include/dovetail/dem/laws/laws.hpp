@@ -241,7 +241,8 @@ struct ContactLaw {
       Normal::turns | Tangential::turns << Normal::memory | Rolling::turns << (Normal::memory + Tangential::memory);
   static constexpr unsigned carries = detail::carriesOf<Tangential>() << Normal::memory |
                                       detail::carriesOf<Rolling>() << (Normal::memory + Tangential::memory);
-  /// How many numbers each part remembers: memory of another kind means something else, whatever its size.
+  /// How many numbers each part remembers, in four bits each, the normal part's lowest: memory of another kind means
+  /// something else, whatever its size.
   static constexpr unsigned memoryKind =
       static_cast<unsigned>(Normal::memory | Tangential::memory << 4 | Rolling::memory << 8 | pullMemory << 12);
   static constexpr bool needsMass = Normal::needsMass;

@@ -96,8 +96,9 @@ struct Model {
 ///
 /// move: [last half kick of the step before] · half kick · drift, of particles, walls and bodies. Before the first
 /// step, and when particles or terms have been added or removed or laws exchanged since the last, it also closes the
-/// step before, checks the model, makes the pair list and finds the forces at the start. The springs of
-/// contacts stay if the parts of the new laws remember as many numbers each, and start anew otherwise.
+/// step before, checks the model, makes the pair list and finds the forces at the start. The springs of contacts stay
+/// if each part of the new laws remembers as many numbers as that of the old ones (ContactLaw::memoryKind), and start
+/// anew otherwise.
 /// @throws InputError as check and requireStableStep do, or if dt is not finite and > 0; NumericalError naming a
 ///   particle that is not finite or moved farther than its own radius in this step (it could pass through walls and
 ///   others unseen)

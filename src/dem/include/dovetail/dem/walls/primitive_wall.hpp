@@ -23,7 +23,7 @@ struct PrimitiveContacts {
   std::vector<double> energy;       ///< of the normal springs, J; if booked
   std::vector<double> sideEnergy;   ///< of those that the law remembers
   std::vector<double> memory;       ///< of the law, contact by contact
-  WallMemoryKind memoryKind;
+  WallMemoryKind memoryKind;        ///< PreparedLaws::wallMemoryKind
   /// Only where space repeats: which image of the particle touches; and the periods, m.
   std::vector<Image> image;
   Vec3 period;

@@ -28,8 +28,8 @@ enum class EdgeRule {
 struct WallSprings {
   std::vector<int> particle;
   std::vector<Vec3> normal;
-  std::vector<double> memory;  ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
-  WallMemoryKind memoryKind;
+  std::vector<double> memory;    ///< of the law, contact by contact; a tangential spring takes three, its stretch, m
+  WallMemoryKind memoryKind;     ///< PreparedLaws::wallMemoryKind
   std::vector<double> fraction;  ///< engagement
 
   std::vector<double> next;    // those of this step, while they are being worked out
